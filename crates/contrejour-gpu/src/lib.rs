@@ -1,0 +1,1 @@
+//! Silhouettes and smoothie soft shadows of any triangle mesh in wgpu compute shaders.

@@ -1,0 +1,1 @@
+//! Measuring contrejour: benches and reports.

@@ -1,0 +1,51 @@
+//! Counters and indirect arguments.
+
+use crate::shared_struct::shared_struct;
+
+shared_struct! {
+    /// What the stages counted. Counters count past capacity, so that what a frame needed is always known.
+    Counters {
+        /// Undecided faces that short integers can decide; they fill the list from its front.
+        undecided_near: u32,
+        /// Undecided faces that need full integers; they fill the list from its back.
+        undecided_far: u32,
+        /// Silhouette edges.
+        silhouette_edges: u32,
+        /// Quads that were needed.
+        quads: u32,
+        /// Corners that were needed.
+        corners: u32,
+        /// Outline edges that project to a point and have no quad.
+        point_edges: u32,
+        /// Zero.
+        unused_0: u32,
+        /// Zero.
+        unused_1: u32,
+    }
+}
+
+shared_struct! {
+    /// Arguments of an indirect dispatch, in workgroups.
+    DispatchArgs {
+        /// Along x.
+        x: u32,
+        /// Along y.
+        y: u32,
+        /// Along z.
+        z: u32,
+    }
+}
+
+shared_struct! {
+    /// Arguments of an indirect draw.
+    DrawArgs {
+        /// Vertices of each instance.
+        vertex_count: u32,
+        /// Instances.
+        instance_count: u32,
+        /// First vertex.
+        first_vertex: u32,
+        /// First instance; zero, as WebGPU's defaults ask.
+        first_instance: u32,
+    }
+}

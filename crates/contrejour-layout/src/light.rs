@@ -1,0 +1,96 @@
+//! What is written when a light or a caster moves.
+
+use crate::shared_struct::shared_struct;
+
+shared_struct! {
+    /// One light as one caster sees it.
+    CasterLight {
+        /// Bits of the light in the caster's object space: x, y, z, w. These values are the input of the exact
+        /// facing test.
+        light_object: [u32; 4],
+        /// Light clip space from the caster's scaled object space.
+        light_clip_from_object: [f32; 16],
+        /// 1 when the caster's matrix mirrors (its determinant is negative), else 0.
+        mirrored: u32,
+        /// 1 when the caster casts for this light; 0 leaves it out (its matrix is singular).
+        casts: u32,
+        /// Zero.
+        unused_0: u32,
+        /// Zero.
+        unused_1: u32,
+    }
+}
+
+shared_struct! {
+    /// One light view: what the compute stages and the raster passes of its maps need. A uniform.
+    LightView {
+        /// 1 for a perspective view (`q = -1 / z`), 0 for an orthographic one (`q = z`).
+        perspective: u32,
+        /// Texels along a side of the square maps.
+        map_size: u32,
+        /// Work items of faces.
+        face_item_count: u32,
+        /// Work items of edges.
+        edge_item_count: u32,
+        /// Room in the list of undecided faces.
+        undecided_capacity: u32,
+        /// Room in the list of silhouette edges.
+        silhouette_capacity: u32,
+        /// Room in the list of quads.
+        quad_capacity: u32,
+        /// Room in the list of corners.
+        corner_capacity: u32,
+        /// Nearest depth of the view.
+        near_depth: f32,
+        /// Farthest depth of the view.
+        far_depth: f32,
+        /// Clip z is `q * ndc_scale + ndc_offset` after the division by w.
+        ndc_scale: f32,
+        /// See `ndc_scale`.
+        ndc_offset: f32,
+        /// The largest `q` that a receiver can have: 0 in a perspective view, `far_depth` in an orthographic one.
+        q_max: f32,
+        /// Smoothie width that does not depend on depth, in NDC.
+        width_fixed_ndc: f32,
+        /// Smoothie width per `q_max - q`: the light's size on the image plane.
+        width_per_q_ndc: f32,
+        /// Smallest smoothie width: one and a half texels, in NDC.
+        width_min_ndc: f32,
+        /// Largest smoothie width, in NDC.
+        width_max_ndc: f32,
+        /// Depth by which a smoothie may lie behind its receiver, in texel footprints.
+        bias_smoothie_texels: f32,
+        /// World size of a texel at depth 1 (perspective) or at any depth (orthographic).
+        texel_world: f32,
+        /// Zero.
+        unused_0: u32,
+    }
+}
+
+shared_struct! {
+    /// What the visibility function needs to look up a receiver in the maps of a light view. A uniform.
+    ReceiverView {
+        /// Light clip space from world space.
+        light_clip_from_world: [f32; 16],
+        /// The light in world space: position and 1, or direction towards the light and 0.
+        light_world: [f32; 4],
+        /// Unit direction of the view's axis in world space, away from the light; w is zero.
+        axis_world: [f32; 4],
+        /// 1 for a perspective view, 0 for an orthographic one.
+        perspective: u32,
+        /// Texels along a side of the square maps.
+        map_size: u32,
+        /// Nearest depth of the view.
+        near_depth: f32,
+        /// Farthest depth of the view.
+        far_depth: f32,
+        /// World size of a texel at depth 1 (perspective) or at any depth (orthographic).
+        texel_world: f32,
+        /// Constant bias, in texel footprints.
+        bias_constant_texels: f32,
+        /// Slope-scaled bias, in texel footprints per unit of slope.
+        bias_slope_texels: f32,
+        /// Normal offset, in texel footprints.
+        bias_normal_texels: f32,
+    }
+}

@@ -1,0 +1,104 @@
+//! What is written once per mesh.
+
+use crate::shared_struct::shared_struct;
+
+shared_struct! {
+    /// Three welded vertex ids. A vertex id is the lowest index among the source vertices with the same position.
+    Face {
+        /// First corner.
+        a: u32,
+        /// Second corner.
+        b: u32,
+        /// Third corner.
+        c: u32,
+    }
+}
+
+shared_struct! {
+    /// One edge and the faces at it.
+    ///
+    /// With at most two faces, `first` and `second` are [incidence words](incidence). With more, `first` is
+    /// [`INCIDENCE_LIST`] and `second` is the offset of a list in the mesh's incidence words: a count, then so many
+    /// incidence words.
+    Edge {
+        /// The lower vertex id: the edge's direction starts here.
+        low_vertex: u32,
+        /// The higher vertex id.
+        high_vertex: u32,
+        /// Incidence word or [`INCIDENCE_LIST`].
+        first: u32,
+        /// Incidence word, [`INCIDENCE_NONE`] or the offset of a list.
+        second: u32,
+    }
+}
+
+/// No face here.
+pub const INCIDENCE_NONE: u32 = u32::MAX;
+
+/// The edge has more than two faces: its incidence words stand in a list.
+pub const INCIDENCE_LIST: u32 = u32::MAX - 1;
+
+/// The face id that stands for "unlit, whatever the light": a face without area that has no partner.
+pub const UNLIT_FACE: u32 = 0x7fff_fffd;
+
+/// Bit 0 of an incidence word: the face's sign counts as it is (set) or negated (clear).
+pub const INCIDENCE_ALONG: u32 = 1;
+
+/// The incidence word of a face at an edge: `face << 1`, and bit 0 set where its sign counts as it is.
+///
+/// Bit 0 is the orientation `o`: set when the face runs along the edge from its lower to its higher vertex. For a
+/// face without area the word names its partner, and bit 0 is the orientation that gives the sign it takes from it.
+pub const fn incidence(face: u32, along: bool) -> u32 {
+    face << 1 | along as u32
+}
+
+shared_struct! {
+    /// One edge as seen from one of its ends.
+    VertexEdge {
+        /// The edge.
+        edge_id: u32,
+        /// The vertex at its other end.
+        other_vertex: u32,
+    }
+}
+
+shared_struct! {
+    /// One mesh that casts a shadow: where its parts lie in the pooled buffers.
+    Caster {
+        /// Where its positions start, in words.
+        first_position_word: u32,
+        /// From one position to the next, in words; at least 3.
+        position_stride_words: u32,
+        /// Its first face in the pool of faces.
+        first_face: u32,
+        /// Number of its faces.
+        face_count: u32,
+        /// Its first edge in the pool of edges.
+        first_edge: u32,
+        /// Number of its edges that can be in a silhouette.
+        edge_count: u32,
+        /// Where its incidence lists start in the pool of incidence words.
+        first_incidence: u32,
+        /// Where its vertex offsets start in the pool of vertex edges, in words. `offset[v] .. offset[v + 1]` are
+        /// the vertex edges of vertex `v`.
+        first_vertex_offset_word: u32,
+        /// Where its vertex edges start in the same pool, in words.
+        first_vertex_edge_word: u32,
+        /// Where its lit bits start in the buffer of lit bits, in words.
+        first_lit_word: u32,
+        /// Where its outline sides start in the buffer of outline sides, in words.
+        first_outline_word: u32,
+        /// A power of two that brings its positions near 1. Matrices expect the scaled positions; facing never does.
+        position_scale: f32,
+    }
+}
+
+shared_struct! {
+    /// What one workgroup does: one block of [`BLOCK_SIZE`](crate::BLOCK_SIZE) faces or edges of one caster.
+    WorkItem {
+        /// Index of the caster.
+        caster: u32,
+        /// Which block of its faces or edges.
+        block: u32,
+    }
+}

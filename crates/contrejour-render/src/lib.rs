@@ -1,0 +1,1 @@
+//! The small forward renderer behind the contrejour command line.

@@ -1,0 +1,1 @@
+//! Scene files of contrejour: cameras, meshes, materials, lights and shadow settings.
