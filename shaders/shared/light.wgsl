@@ -1,0 +1,33 @@
+// What is written when a light or a caster moves. Meanings and units: the structs of the same names in the layout crate.
+
+struct CasterLight {
+    light_object: vec4u,
+    light_clip_from_object: mat4x4f,
+    mirrored: u32,
+    casts: u32,
+    unused_0: u32,
+    unused_1: u32,
+}
+
+struct LightView {
+    perspective: u32,
+    map_size: u32,
+    face_item_count: u32,
+    edge_item_count: u32,
+    undecided_capacity: u32,
+    silhouette_capacity: u32,
+    quad_capacity: u32,
+    corner_capacity: u32,
+    near_depth: f32,
+    far_depth: f32,
+    ndc_scale: f32,
+    ndc_offset: f32,
+    q_max: f32,
+    width_fixed_ndc: f32,
+    width_per_q_ndc: f32,
+    width_min_ndc: f32,
+    width_max_ndc: f32,
+    bias_smoothie_texels: f32,
+    texel_world: f32,
+    unused_0: u32,
+}

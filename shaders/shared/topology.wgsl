@@ -1,0 +1,46 @@
+// What is written once per mesh. Meanings and units: the structs of the same names in the layout crate.
+
+const INCIDENCE_NONE = 0xffffffffu;
+const INCIDENCE_LIST = 0xfffffffeu;
+const UNLIT_FACE = 0x7ffffffdu;
+const BLOCK_SIZE = 64u;
+const LIT_WORDS_PER_BLOCK = 2u;
+const OUTLINE_WORDS_PER_BLOCK = 4u;
+
+struct Face {
+    a: u32,
+    b: u32,
+    c: u32,
+}
+
+struct Edge {
+    low_vertex: u32,
+    high_vertex: u32,
+    first: u32,
+    second: u32,
+}
+
+struct VertexEdge {
+    edge_id: u32,
+    other_vertex: u32,
+}
+
+struct Caster {
+    first_position_word: u32,
+    position_stride_words: u32,
+    first_face: u32,
+    face_count: u32,
+    first_edge: u32,
+    edge_count: u32,
+    first_incidence: u32,
+    first_vertex_offset_word: u32,
+    first_vertex_edge_word: u32,
+    first_lit_word: u32,
+    first_outline_word: u32,
+    position_scale: f32,
+}
+
+struct WorkItem {
+    caster: u32,
+    block: u32,
+}
