@@ -68,4 +68,5 @@ pub const SHARED_STRUCTS: &[SharedStruct] = &[
     DispatchArgs::SHARED,
     DrawArgs::SHARED,
     ReceiverView::SHARED,
+    EyeView::SHARED,
 ];

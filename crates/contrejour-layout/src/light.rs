@@ -94,3 +94,19 @@ shared_struct! {
         bias_normal_texels: f32,
     }
 }
+
+shared_struct! {
+    /// What the visibility texture needs of the eye's view. A uniform.
+    EyeView {
+        /// World space from the eye's clip space.
+        world_from_eye_clip: [f32; 16],
+        /// Depth-buffer value where nothing was drawn: 1, or 0 with reversed z.
+        background_depth: f32,
+        /// Zero.
+        unused_0: u32,
+        /// Zero.
+        unused_1: u32,
+        /// Zero.
+        unused_2: u32,
+    }
+}

@@ -1,0 +1,117 @@
+// Fills the smoothie buffer of a light view: nearest depth and least alpha of the quads and corners on each texel.
+// One vertex invocation = one corner of a triangle of a quad or of a corner.
+// Reads quads or corners, and the linear depth of the shadow map.
+// Chan & Durand 2003, sections 4.2 and 4.3. Distance, width and q are linear on the image plane; alpha is not, where
+// the ends have different widths, so it is made in the fragment.
+
+@group(0) @binding(0) var<uniform> view: LightView;
+@group(0) @binding(1) var<storage, read> quads: array<Quad>;
+@group(0) @binding(2) var<storage, read> corners: array<Corner>;
+@group(0) @binding(3) var shadow_depth: texture_2d<f32>;
+
+// 0 leaves alpha as it is, and shows the contact problem that the remap cures.
+override remap_alpha = 1u;
+
+struct SmoothieVertex {
+    @builtin(position) clip: vec4f,
+    // Distance across the edge, negative on the blocker's side.
+    @location(0) across: f32,
+    // Offset from a corner's apex; zero on a quad.
+    @location(1) around: vec2f,
+    @location(2) width: f32,
+    @location(3) q: f32,
+}
+
+// The inner rim reaches half a texel under the blocker, since quads and shadow map round differently.
+const INNER_RIM_TEXELS = 0.5;
+
+@vertex
+fn vertex_quad(@builtin(vertex_index) index: u32) -> SmoothieVertex {
+    let quad = quads[index / VERTICES_PER_QUAD];
+    // Two triangles: low inner, high inner, high outer; low inner, high outer, low outer.
+    let corner = index % VERTICES_PER_QUAD;
+    let is_high = corner == 1u || corner == 2u || corner == 4u;
+    let is_outer = corner == 2u || corner >= 4u;
+    let width = select(quad.width_ndc.x, quad.width_ndc.y, is_high);
+    let q = select(quad.q.x, quad.q.y, is_high);
+    let across = select(-INNER_RIM_TEXELS * 2.0 / f32(view.map_size), width, is_outer);
+    let ndc = select(quad.low_ndc, quad.high_ndc, is_high) + across * quad.outward;
+    return SmoothieVertex(clip_at(ndc, q), across, vec2f(0.0), width, q);
+}
+
+@vertex
+fn vertex_corner(@builtin(vertex_index) index: u32) -> SmoothieVertex {
+    let corner = corners[index / VERTICES_PER_CORNER];
+    // Two kites, from begin to middle and from middle to end; each of two triangles that meet at its tip.
+    let triangle = index % VERTICES_PER_CORNER / 3u;
+    let first = select(corner.middle, corner.begin, triangle < 2u);
+    let last = select(corner.end, corner.middle, triangle < 2u);
+    let point = index % 3u;
+    var direction = kite_tip(first, last);
+    if point == 0u {
+        direction = vec2f(0.0);
+    } else if (point == 1u) == (triangle % 2u == 0u) {
+        direction = select(last, first, triangle % 2u == 0u);
+    }
+    let around = corner.width_ndc * direction;
+    return SmoothieVertex(clip_at(corner.apex_ndc + around, corner.q), 0.0, around, corner.width_ndc, corner.q);
+}
+
+// Where the tangents of the unit circle at two unit vectors meet. A kite spans at most a quarter turn, so the tip is at
+// most sqrt(2) away.
+fn kite_tip(first: vec2f, last: vec2f) -> vec2f {
+    return (first + last) / (1.0 + dot(first, last));
+}
+
+fn clip_at(ndc: vec2f, q: f32) -> vec4f {
+    return vec4f(ndc, saturate(q * view.ndc_scale + view.ndc_offset), 1.0);
+}
+
+@fragment
+fn fragment_smoothie_depth(vertex: SmoothieVertex) {
+    if !is_kept(vertex) {
+        discard;
+    }
+}
+
+@fragment
+fn fragment_smoothie_alpha(vertex: SmoothieVertex) -> @location(0) f32 {
+    if !is_kept(vertex) {
+        discard;
+    }
+    return remapped_alpha(vertex);
+}
+
+// Both at once, for devices that blend 32-bit floats.
+@fragment
+fn fragment_smoothie_buffer(vertex: SmoothieVertex) -> @location(0) vec2f {
+    if !is_kept(vertex) {
+        discard;
+    }
+    return vec2f(depth_of_q(vertex.q), remapped_alpha(vertex));
+}
+
+fn distance_to_edge(vertex: SmoothieVertex) -> f32 {
+    return max(vertex.across, length(vertex.around));
+}
+
+fn receiver_depth(vertex: SmoothieVertex) -> f32 {
+    return textureLoad(shadow_depth, vec2u(vertex.clip.xy), 0).x;
+}
+
+// Within the width, and in front of the receiver: a smoothie behind it must not darken a nearer one's texel.
+fn is_kept(vertex: SmoothieVertex) -> bool {
+    let blocker = depth_of_q(vertex.q);
+    let bias = view.bias_smoothie_texels * texel_footprint(blocker);
+    return distance_to_edge(vertex) <= vertex.width && blocker + bias < receiver_depth(vertex);
+}
+
+fn remapped_alpha(vertex: SmoothieVertex) -> f32 {
+    let alpha = saturate(distance_to_edge(vertex) / vertex.width);
+    if remap_alpha == 0u {
+        return alpha;
+    }
+    // The paper's alpha / (1 - b / r), for a perspective and for an orthographic view alike.
+    let q_receiver = q_of_depth(receiver_depth(vertex));
+    return saturate(alpha * (view.q_max - vertex.q) / (q_receiver - vertex.q));
+}

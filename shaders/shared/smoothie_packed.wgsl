@@ -1,0 +1,8 @@
+// The smoothie buffer in one texture: linear depth and alpha in 32-bit floats.
+
+@group(CONTREJOUR_GROUP) @binding(2) var contrejour_smoothie_buffer: texture_2d<f32>;
+
+fn contrejour_smoothie_at(texel: vec2i) -> ContrejourSmoothie {
+    let smoothie = textureLoad(contrejour_smoothie_buffer, texel, 0).xy;
+    return ContrejourSmoothie(smoothie.x, smoothie.y);
+}

@@ -1,0 +1,18 @@
+// Depth on the light's image plane. q is linear there: -1 / z in a perspective view, z in an orthographic one.
+
+fn depth_of_clip(clip: vec4f) -> f32 {
+    return select(mix(view.near_depth, view.far_depth, clip.z), clip.w, view.perspective == 1u);
+}
+
+fn q_of_depth(depth: f32) -> f32 {
+    return select(depth, -1.0 / depth, view.perspective == 1u);
+}
+
+fn depth_of_q(q: f32) -> f32 {
+    return select(q, -1.0 / q, view.perspective == 1u);
+}
+
+// World size of a texel at a depth.
+fn texel_footprint(depth: f32) -> f32 {
+    return view.texel_world * select(1.0, depth, view.perspective == 1u);
+}
