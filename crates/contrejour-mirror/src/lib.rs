@@ -1,1 +1,25 @@
-//! The CPU twin of every compute stage of contrejour.
+//! The CPU twin of every compute stage of contrejour: plain functions over layout slices, no wgpu, one thread.
+//!
+//! A stage `shaders/compute/<stage>.wgsl` has its twin in the module `<stage>`, which holds one struct, named like the
+//! stage: its fields are the stage's bindings, same names, same order.
+//!
+//! - `read` storage is `&[T]`, `read_write` storage is `&mut [T]`, a single struct is `&T` or `&mut T`;
+//!   atomic words are plain words.
+//! - `run(self)` does what the whole dispatch does: invocations one after the other, in ascending order. Lists that the
+//!   GPU fills by atomics come out in that order; compare them sorted by id.
+//!
+//! ```
+//! use contrejour_layout::{Counters, DispatchArgs, LightView};
+//! use contrejour_mirror::WriteRefineArgs;
+//!
+//! let view = LightView { undecided_capacity: 1000, ..Default::default() };
+//! let counters = Counters { undecided_near: 65, ..Default::default() };
+//! let mut refine_args = [DispatchArgs::default(); 2];
+//! WriteRefineArgs { view: &view, counters: &counters, refine_args: &mut refine_args }.run();
+//! assert_eq!(refine_args[0], DispatchArgs { x: 2, y: 1, z: 1 });
+//! ```
+
+mod group_args;
+mod write_refine_args;
+
+pub use write_refine_args::WriteRefineArgs;

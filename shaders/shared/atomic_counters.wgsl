@@ -1,0 +1,12 @@
+// The counters as the stages see them that count. Meanings: `Counters` in the layout crate.
+
+struct AtomicCounters {
+    undecided_near: atomic<u32>,
+    undecided_far: atomic<u32>,
+    silhouette_edges: atomic<u32>,
+    quads: atomic<u32>,
+    corners: atomic<u32>,
+    point_edges: atomic<u32>,
+    unused_0: atomic<u32>,
+    unused_1: atomic<u32>,
+}
