@@ -1,6 +1,6 @@
 //! Triangles as they come from a file or a generator, before any topology.
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
 /// Triangles with what a renderer needs to shade them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,6 +21,11 @@ pub struct TriangleMesh {
     pub unlisted_vertices: u32,
 }
 
+impl TriangleMesh {
+    /// Linear base colour where a file says nothing: a light grey.
+    pub const DEFAULT_COLOR: [f32; 3] = [0.8; 3];
+}
+
 /// A mesh placed in its file's world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshNode {
@@ -37,4 +42,31 @@ pub struct MeshFile {
     pub meshes: Vec<TriangleMesh>,
     /// Where the meshes stand.
     pub nodes: Vec<MeshNode>,
+    /// What the file holds and the loader leaves out or replaces, one line each; empty when nothing is lost.
+    pub warnings: Vec<String>,
+}
+
+impl MeshFile {
+    /// A file of one mesh that stands at the origin of its world.
+    pub fn single(mesh: TriangleMesh, warnings: Vec<String>) -> Self {
+        let node = MeshNode { mesh: 0, world_from_object: DMat4::IDENTITY };
+        Self { meshes: vec![mesh], nodes: vec![node], warnings }
+    }
+
+    /// Number of triangles in the file's world: those of each node's mesh.
+    pub fn triangle_count(&self) -> usize {
+        self.nodes.iter().map(|node| self.meshes[node.mesh].triangles.len()).sum()
+    }
+
+    /// Smallest and largest corner of the box around all corners of triangles, in world space; `None` without triangles.
+    pub fn bounds_world(&self) -> Option<(DVec3, DVec3)> {
+        let corners_world = self.nodes.iter().flat_map(|node| {
+            let mesh = &self.meshes[node.mesh];
+            mesh.triangles.as_flattened().iter().map(|&vertex| {
+                let position = mesh.positions[vertex as usize].map(f64::from);
+                node.world_from_object.transform_point3(position.into())
+            })
+        });
+        corners_world.map(|corner| (corner, corner)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
 }

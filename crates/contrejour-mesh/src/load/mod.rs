@@ -1,0 +1,72 @@
+//! Mesh files: one function for all formats, and one for each format from bytes.
+
+mod error;
+#[cfg(feature = "obj")]
+mod obj;
+
+use std::fs;
+use std::path::Path;
+
+use crate::MeshFile;
+
+pub use error::LoadError;
+#[cfg(feature = "obj")]
+pub use obj::load_obj;
+
+/// Loads a mesh file; its extension (.obj, .gltf, .glb, .ply, .stl, in any case) names the format.
+///
+/// A file without triangles is an empty mesh and no error. What the loader leaves out is in [`MeshFile::warnings`].
+///
+/// # Errors
+///
+/// Any [`LoadError`]; the file is either loaded completely or refused.
+pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    let format = match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("obj") => "obj",
+        Some("gltf" | "glb") => "gltf",
+        Some("ply") => "ply",
+        Some("stl") => "stl",
+        _ if path.is_dir() => return Err(LoadError::Directory { path: path.into() }),
+        _ => return Err(LoadError::UnknownFormat { path: path.into() }),
+    };
+    let bytes = read_file(path)?;
+    if bytes.is_empty() {
+        return Err(LoadError::Empty { path: path.into() });
+    }
+    match format {
+        #[cfg(feature = "obj")]
+        "obj" => load_obj(&bytes, path),
+        feature => Err(LoadError::FormatDisabled { path: path.into(), feature }),
+    }
+}
+
+/// Reads a whole file; a directory has an error of its own.
+fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {
+    if path.is_dir() {
+        return Err(LoadError::Directory { path: path.into() });
+    }
+    fs::read(path).map_err(|source| LoadError::Read { path: path.into(), source })
+}
+
+/// File name without extension: the name of a mesh in formats that name none.
+#[cfg(any(feature = "obj", feature = "ply", feature = "stl"))]
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
+}
+
+/// Whether all coordinates are finite.
+#[cfg(any(feature = "obj", feature = "gltf", feature = "ply", feature = "stl"))]
+fn is_finite(position: [f32; 3]) -> bool {
+    position.iter().all(|coordinate| coordinate.is_finite())
+}
+
+/// Linear colour from an sRGB one (IEC 61966-2-1:1999), each 0..1; other values are clamped.
+#[cfg(any(feature = "obj", feature = "ply"))]
+fn linear_from_srgb(color: [f32; 3]) -> [f32; 3] {
+    color.map(|channel| {
+        let channel = channel.clamp(0.0, 1.0);
+        if channel > 0.040_45 { ((channel + 0.055) / 1.055).powf(2.4) } else { channel / 12.92 }
+    })
+}
