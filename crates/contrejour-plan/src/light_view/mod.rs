@@ -1,0 +1,14 @@
+//! Light views: the cameras that a light looks through.
+
+mod caster_light;
+mod frustum;
+mod object_light;
+mod power_of_two;
+mod records;
+mod view;
+
+pub use caster_light::{caster_light, position_scale};
+pub use frustum::ObjectBox;
+pub use object_light::{ObjectLight, object_light};
+pub use records::ViewCounts;
+pub use view::{Projection, View, views};

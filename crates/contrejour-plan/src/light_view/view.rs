@@ -1,0 +1,147 @@
+//! From a light to the square cameras that it looks through.
+
+use glam::dcamera::rh::proj::directx::{orthographic, perspective};
+use glam::dcamera::rh::view::look_to_mat4;
+use glam::{DMat4, DVec3, DVec4};
+
+use crate::{Light, LightError, LightKind};
+
+/// Directions whose y is more than this look up or down: the image plane's up is then an axis other than y.
+const STEEP: f64 = 0.99;
+
+/// How a view brings the world to its image plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// Through a point: `q(z) = -1 / z`.
+    Perspective,
+    /// Along parallels: `q(z) = z`.
+    Orthographic,
+}
+
+/// A square camera that a light looks through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Perspective or orthographic.
+    pub projection: Projection,
+    /// Light clip space from world space. In a perspective view clip w is the linear depth; in an orthographic one
+    /// w is 1 and clip z is `(depth - near) / (far - near)`.
+    pub light_clip_from_world: DMat4,
+    /// The homogeneous light in world space: position and 1, or the direction towards the light as given and 0.
+    pub light_world: DVec4,
+    /// Unit direction of the axis in world space, away from the light.
+    pub axis_world: DVec3,
+    /// Nearest depth, world units. More than 0 in a perspective view, 0 in an orthographic one.
+    pub near_depth: f64,
+    /// Farthest depth, world units.
+    pub far_depth: f64,
+    /// Half the side of the image plane in world units: at depth 1 (perspective) or at any depth (orthographic).
+    pub half_side: f64,
+    /// Size of the light on the image plane, NDC per unit of q: the half penumbra of a blocker at depth b on a
+    /// receiver at depth r is `light_size * (q(r) - q(b))`.
+    pub light_size: f64,
+}
+
+/// The views of a light: one for a spot and for a directional light.
+///
+/// # Errors
+///
+/// The light has a field that is out of its range.
+pub fn views(light: &Light) -> Result<Vec<View>, LightError> {
+    light.validate()?;
+    let view = match light.kind {
+        LightKind::Spot { position, target, cone_angle, radius, near, far } => {
+            let axis_world = unit(target - position);
+            let half_side = (cone_angle / 2.0).tan();
+            View {
+                projection: Projection::Perspective,
+                light_clip_from_world: perspective(cone_angle, 1.0, near, far) * look_along(position, axis_world),
+                light_world: position.extend(1.0),
+                axis_world,
+                near_depth: near,
+                far_depth: far,
+                half_side,
+                light_size: radius / half_side,
+            }
+        }
+        LightKind::Directional { towards_light, center, half_extent, half_depth, angular_radius } => {
+            let axis_world = -unit(towards_light);
+            let far_depth = 2.0 * half_depth;
+            let light_clip_from_light =
+                orthographic(-half_extent, half_extent, -half_extent, half_extent, 0.0, far_depth);
+            View {
+                projection: Projection::Orthographic,
+                light_clip_from_world: light_clip_from_light * look_along(center - axis_world * half_depth, axis_world),
+                light_world: towards_light.extend(0.0),
+                axis_world,
+                near_depth: 0.0,
+                far_depth,
+                half_side: half_extent,
+                light_size: angular_radius.tan() / half_extent,
+            }
+        }
+    };
+    Ok(vec![view])
+}
+
+impl View {
+    /// What is linear on the image plane for a linear depth.
+    pub fn q_of_depth(&self, depth: f64) -> f64 {
+        match self.projection {
+            Projection::Perspective => -1.0 / depth,
+            Projection::Orthographic => depth,
+        }
+    }
+
+    /// The largest q that a receiver can have: 0 in a perspective view, the farthest depth in an orthographic one.
+    pub fn q_max(&self) -> f64 {
+        match self.projection {
+            Projection::Perspective => 0.0,
+            Projection::Orthographic => self.far_depth,
+        }
+    }
+
+    /// NDC z is `q * ndc_scale + ndc_offset`.
+    pub fn ndc_scale(&self) -> f64 {
+        let range = self.far_depth - self.near_depth;
+        match self.projection {
+            Projection::Perspective => self.far_depth * (self.near_depth / range),
+            Projection::Orthographic => 1.0 / range,
+        }
+    }
+
+    /// See [`ndc_scale`](Self::ndc_scale).
+    pub fn ndc_offset(&self) -> f64 {
+        let range = self.far_depth - self.near_depth;
+        match self.projection {
+            Projection::Perspective => self.far_depth / range,
+            Projection::Orthographic => -self.near_depth / range,
+        }
+    }
+
+    /// World size of a texel at depth 1 (perspective) or at any depth (orthographic).
+    pub fn texel_world(&self, map_size: u32) -> f64 {
+        2.0 * self.half_side / f64::from(map_size)
+    }
+
+    /// Unit vector, or position, of the light with its 1 or 0.
+    pub(crate) fn unit_light_world(&self) -> DVec4 {
+        match self.projection {
+            Projection::Perspective => self.light_world,
+            Projection::Orthographic => (-self.axis_world).extend(0.0),
+        }
+    }
+}
+
+/// Unit vector of any vector but zero; the largest component goes first, so that squares neither overflow nor vanish.
+fn unit(direction: DVec3) -> DVec3 {
+    (direction / direction.abs().max_element()).normalize()
+}
+
+/// Light space from world space: looks from `eye` along the unit vector `axis`.
+fn look_along(eye: DVec3, axis: DVec3) -> DMat4 {
+    let up = if axis.y.abs() > STEEP { DVec3::Z } else { DVec3::Y };
+    look_to_mat4(eye, axis, up)
+}
+
+#[cfg(test)]
+mod tests;
