@@ -1,0 +1,195 @@
+//! Closes the gap between an outline edge's quad and its neighbour's with a wedge around their common vertex.
+//!
+//! Each outside sector around a vertex lies between two ends; the one that has it on its counter-clockwise side makes
+//! the wedge. An end whose neighbour can't be told apart closes its own side with a quarter disk: never a gap, and what
+//! overlaps is settled by minimum blending.
+
+use contrejour_layout::{
+    CORNER_CAP, CORNER_WEDGE, Caster, CasterLight, Corner, Counters, LightView, MAX_SEARCHED_VALENCE,
+    OUTLINE_BLOCKER_RIGHT, OUTLINE_NONE, OWN_END_HIGH, OWN_END_LOW, Quad,
+};
+use glam::{Vec2, Vec4};
+
+use crate::caster_position::scaled_position;
+use crate::image_plane::{clip_of_delta, clip_of_position, clockwise, counter_clockwise, halfway, image_direction};
+
+/// Two directions whose pseudo-angle differs by less than this can't be told apart.
+const COINCIDENT: f32 = 1e-4;
+const FULL_TURN: f32 = 4.0;
+const HALF_TURN: f32 = 2.0;
+
+/// The stage `build_corners`: ends of quads to wedges and caps.
+pub struct BuildCorners<'a> {
+    /// The room in the lists of quads and corners.
+    pub view: &'a LightView,
+    /// The quads.
+    pub quads: &'a [Quad],
+    /// Where the parts of each caster lie.
+    pub casters: &'a [Caster],
+    /// The light as each caster sees it.
+    pub caster_lights: &'a [CasterLight],
+    /// Positions of all casters, as bits.
+    pub positions: &'a [u32],
+    /// Outline sides of all casters, two bits an edge.
+    pub outline_sides: &'a [u32],
+    /// Offsets and edges of the vertices of all casters.
+    pub vertex_edges: &'a [u32],
+    /// The corners.
+    pub corners: &'a mut [Corner],
+    /// Counts corners; holds the number of quads.
+    pub counters: &'a mut Counters,
+}
+
+impl BuildCorners<'_> {
+    /// Does what the whole dispatch does.
+    ///
+    /// # Panics
+    ///
+    /// When a record names a part of a buffer that does not exist.
+    pub fn run(self) {
+        let quad_count = self.counters.quads.min(self.view.quad_capacity) as usize;
+        for quad in &self.quads[..quad_count] {
+            for end in [OWN_END_LOW, OWN_END_HIGH] {
+                if quad.own_ends & end == 0 {
+                    continue;
+                }
+                let is_high = end == OWN_END_HIGH;
+                if let Some(corner) = self.corner_at(quad, is_high) {
+                    let slot = self.counters.corners;
+                    self.counters.corners += 1;
+                    if slot < self.view.corner_capacity {
+                        self.corners[slot as usize] = corner;
+                    }
+                }
+            }
+        }
+    }
+
+    fn corner_at(&self, quad: &Quad, is_high: bool) -> Option<Corner> {
+        let edge_end = self.end_of_quad(quad, is_high);
+        let wedge = match self.find_neighbour(&edge_end, quad) {
+            Some(neighbour) => wedge_between(&edge_end, &neighbour)?,
+            None => cap(&edge_end),
+        };
+        let index = usize::from(is_high);
+        Some(Corner {
+            apex_ndc: [quad.low_ndc, quad.high_ndc][index],
+            begin: wedge.begin.to_array(),
+            middle: halfway(wedge.begin, wedge.end).to_array(),
+            end: wedge.end.to_array(),
+            width_ndc: quad.width_ndc[index],
+            q: quad.q[index],
+            caster: quad.caster,
+            vertex_id: edge_end.vertex,
+            edge_id: quad.edge_id,
+            kind: wedge.kind,
+        })
+    }
+}
+
+/// One end of an outline edge, on the image plane.
+struct EdgeEnd {
+    vertex: u32,
+    clip: Vec4,
+    /// Unit direction from the vertex along the edge.
+    direction: Vec2,
+    /// +1 where the outside lies counter-clockwise of the direction, -1 where clockwise.
+    turn: f32,
+}
+
+/// The outline edge that one meets first when turning through the outside.
+struct Neighbour {
+    direction: Vec2,
+    turn: f32,
+    /// Monotone in the angle: 0 at none, 2 at a half turn, 4 at a full one.
+    pseudo_angle: f32,
+}
+
+/// Directions where a wedge begins and ends, counter-clockwise.
+struct Wedge {
+    begin: Vec2,
+    end: Vec2,
+    kind: u32,
+}
+
+impl BuildCorners<'_> {
+    fn end_of_quad(&self, quad: &Quad, is_high: bool) -> EdgeEnd {
+        let vertex = if is_high { quad.high_vertex } else { quad.low_vertex };
+        let caster = &self.casters[quad.caster as usize];
+        let light = &self.caster_lights[quad.caster as usize];
+        let clip = clip_of_position(light, scaled_position(caster, self.positions, vertex));
+        let turn = outside_turn(quad.side, !is_high);
+        // From the quad, so that it is never without a direction and its corners fit it to the bit.
+        let direction = turn * clockwise(Vec2::from_array(quad.outward));
+        EdgeEnd { vertex, clip, direction, turn }
+    }
+
+    /// The neighbour of an end; none where it can't be told apart.
+    fn find_neighbour(&self, edge_end: &EdgeEnd, quad: &Quad) -> Option<Neighbour> {
+        let caster = &self.casters[quad.caster as usize];
+        let light = &self.caster_lights[quad.caster as usize];
+        let position = scaled_position(caster, self.positions, edge_end.vertex);
+        let offset_word = (caster.first_vertex_offset_word + edge_end.vertex) as usize;
+        let (first, last) = (self.vertex_edges[offset_word], self.vertex_edges[offset_word + 1]);
+        if last - first > MAX_SEARCHED_VALENCE {
+            return None;
+        }
+
+        let mut nearest: Option<Neighbour> = None;
+        for i in first..last {
+            let word = (caster.first_vertex_edge_word + 2 * i) as usize;
+            let (edge_id, other_vertex) = (self.vertex_edges[word], self.vertex_edges[word + 1]);
+            let side = self.side_of_edge(caster, edge_id);
+            if edge_id == quad.edge_id || side == OUTLINE_NONE {
+                continue;
+            }
+            let delta = clip_of_delta(light, scaled_position(caster, self.positions, other_vertex) - position);
+            let direction = image_direction(edge_end.clip, delta)?;
+            let pseudo_angle = turned(edge_end, direction);
+            if !(COINCIDENT..=FULL_TURN - COINCIDENT).contains(&pseudo_angle) {
+                return None;
+            }
+            if nearest.as_ref().is_none_or(|nearest| pseudo_angle < nearest.pseudo_angle) {
+                let turn = outside_turn(side, edge_end.vertex < other_vertex);
+                nearest = Some(Neighbour { direction, turn, pseudo_angle });
+            }
+        }
+        nearest.filter(|neighbour| neighbour.turn != edge_end.turn)
+    }
+
+    fn side_of_edge(&self, caster: &Caster, edge_id: u32) -> u32 {
+        self.outline_sides[(caster.first_outline_word + edge_id / 16) as usize] >> (edge_id % 16 * 2) & 3
+    }
+}
+
+/// The outside lies on the right of an edge whose blocker is on its left. Seen from its high end it runs the other way.
+fn outside_turn(side: u32, from_low: bool) -> f32 {
+    if (side == OUTLINE_BLOCKER_RIGHT) == from_low { 1.0 } else { -1.0 }
+}
+
+/// How far one turns through the outside from the edge to a direction.
+fn turned(edge_end: &EdgeEnd, direction: Vec2) -> f32 {
+    let cosine = edge_end.direction.dot(direction);
+    let sine = edge_end.turn * edge_end.direction.perp_dot(direction);
+    if sine >= 0.0 { 1.0 - cosine } else { 3.0 + cosine }
+}
+
+/// What fills the sector between two neighbours; none where their quads do, or where the neighbour's end makes it.
+fn wedge_between(edge_end: &EdgeEnd, neighbour: &Neighbour) -> Option<Wedge> {
+    if edge_end.turn < 0.0 || neighbour.pseudo_angle <= HALF_TURN {
+        return None;
+    }
+    Some(Wedge {
+        begin: counter_clockwise(edge_end.direction),
+        end: clockwise(neighbour.direction),
+        kind: CORNER_WEDGE,
+    })
+}
+
+/// A quarter disk from the quad's outward direction to beyond the edge's end.
+fn cap(edge_end: &EdgeEnd) -> Wedge {
+    let outward = edge_end.turn * counter_clockwise(edge_end.direction);
+    let beyond = -edge_end.direction;
+    let (begin, end) = if edge_end.turn > 0.0 { (outward, beyond) } else { (beyond, outward) };
+    Wedge { begin, end, kind: CORNER_CAP }
+}

@@ -1,0 +1,14 @@
+//! Positions of a caster, brought near 1 by its power of two. Never used for facing.
+
+use contrejour_layout::Caster;
+use glam::Vec3;
+
+pub(crate) fn scaled_position(caster: &Caster, positions: &[u32], vertex: u32) -> Vec3 {
+    let word = (caster.first_position_word + vertex * caster.position_stride_words) as usize;
+    let position = Vec3::new(
+        f32::from_bits(positions[word]),
+        f32::from_bits(positions[word + 1]),
+        f32::from_bits(positions[word + 2]),
+    );
+    position * caster.position_scale
+}

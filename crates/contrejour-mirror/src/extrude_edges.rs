@@ -1,0 +1,199 @@
+//! Turns each outline edge into a quad on the light's image plane, clipped to the frustum widened by the quad's width.
+//!
+//! Chan & Durand 2003, section 4.2, with the outward side taken from the faces instead of averaged normals.
+
+use contrejour_layout::{
+    Caster, CasterLight, Counters, Edge, LightView, OUTLINE_BLOCKER_LEFT, OUTLINE_BLOCKER_RIGHT, OWN_END_HIGH,
+    OWN_END_LOW, Quad, SilhouetteEdge,
+};
+use glam::{Vec4, Vec4Swizzles};
+
+use crate::caster_position::scaled_position;
+use crate::image_plane::{clip_of_delta, clip_of_position, clockwise, counter_clockwise, image_direction};
+use crate::view_depth::{q_of_clip, smoothie_width};
+
+/// The stage `extrude_edges`: silhouette edges to quads.
+pub struct ExtrudeEdges<'a> {
+    /// The light view that is drawn into, and the room in the lists.
+    pub view: &'a LightView,
+    /// The silhouette.
+    pub silhouettes: &'a [SilhouetteEdge],
+    /// Where the parts of each caster lie.
+    pub casters: &'a [Caster],
+    /// The light as each caster sees it.
+    pub caster_lights: &'a [CasterLight],
+    /// Edges of all casters.
+    pub edges: &'a [Edge],
+    /// Positions of all casters, as bits.
+    pub positions: &'a [u32],
+    /// The quads.
+    pub quads: &'a mut [Quad],
+    /// Counts quads and edges that project to a point; holds the number of silhouette edges.
+    pub counters: &'a mut Counters,
+}
+
+impl ExtrudeEdges<'_> {
+    /// Does what the whole dispatch does.
+    ///
+    /// # Panics
+    ///
+    /// When a record names a part of a buffer that does not exist.
+    pub fn run(mut self) {
+        let silhouette_count = self.counters.silhouette_edges.min(self.view.silhouette_capacity) as usize;
+        for silhouette in &self.silhouettes[..silhouette_count] {
+            if silhouette.left > 0 && silhouette.right > 0 {
+                continue;
+            }
+            if let Some(quad) = self.extrude(silhouette) {
+                let slot = self.counters.quads;
+                self.counters.quads += 1;
+                if slot < self.view.quad_capacity {
+                    self.quads[slot as usize] = quad;
+                }
+            }
+        }
+    }
+
+    /// The quad of an outline edge; none where none of it is in view.
+    fn extrude(&mut self, silhouette: &SilhouetteEdge) -> Option<Quad> {
+        // Project.
+        let caster = &self.casters[silhouette.caster as usize];
+        let light = &self.caster_lights[silhouette.caster as usize];
+        let edge = &self.edges[(caster.first_edge + silhouette.edge_id) as usize];
+        let low = scaled_position(caster, self.positions, edge.low_vertex);
+        let high = scaled_position(caster, self.positions, edge.high_vertex);
+        let segment = Segment {
+            low: clip_of_position(light, low),
+            high: clip_of_position(light, high),
+            delta: clip_of_delta(light, high - low),
+        };
+        let Some(direction) = image_direction(segment.low, segment.delta) else {
+            self.counters.point_edges += 1;
+            return None;
+        };
+
+        // Clip by depth first, since the width that widens the frustum depends on it.
+        let depth_span = segment.clip_by_depth(Span { begin: 0.0, end: 1.0 })?;
+        let width_at = |t| smoothie_width(self.view, q_of_clip(self.view, segment.at(t)));
+        let width = width_at(depth_span.begin).max(width_at(depth_span.end));
+        let span = segment.clip_by_sides(depth_span, 1.0 + width)?;
+
+        // Extrude away from the blocker.
+        let low_end = segment.at(span.begin);
+        let high_end = segment.at(span.end);
+        let q = [q_of_clip(self.view, low_end), q_of_clip(self.view, high_end)];
+        let (side, outward) = if silhouette.right == 0 {
+            (OUTLINE_BLOCKER_LEFT, clockwise(direction))
+        } else {
+            (OUTLINE_BLOCKER_RIGHT, counter_clockwise(direction))
+        };
+        let own_low = if span.begin == 0.0 { OWN_END_LOW } else { 0 };
+        let own_high = if span.end == 1.0 { OWN_END_HIGH } else { 0 };
+        Some(Quad {
+            low_ndc: (low_end.xy() / low_end.w).to_array(),
+            high_ndc: (high_end.xy() / high_end.w).to_array(),
+            outward: outward.to_array(),
+            width_ndc: q.map(|q| smoothie_width(self.view, q)),
+            q,
+            caster: silhouette.caster,
+            edge_id: silhouette.edge_id,
+            low_vertex: edge.low_vertex,
+            high_vertex: edge.high_vertex,
+            own_ends: own_low | own_high,
+            side,
+        })
+    }
+}
+
+/// An edge in clip space.
+struct Segment {
+    low: Vec4,
+    high: Vec4,
+    delta: Vec4,
+}
+
+/// The part of an edge that is inside: from `begin` to `end` of its parameter 0..1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Span {
+    begin: f32,
+    end: f32,
+}
+
+impl Segment {
+    /// The ends themselves where nothing was cut off, so that neighbours share them to the bit.
+    fn at(&self, t: f32) -> Vec4 {
+        if t == 0.0 {
+            return self.low;
+        }
+        if t == 1.0 {
+            return self.high;
+        }
+        self.low + t * self.delta
+    }
+
+    /// What is left between the near and the far plane; none where nothing is.
+    fn clip_by_depth(&self, span: Span) -> Option<Span> {
+        let Self { low, high, .. } = self;
+        clip_by_plane(span, low.z, high.z)
+            .and_then(|span| clip_by_plane(span, low.w - low.z, high.w - high.z))
+            .filter(Span::has_length)
+    }
+
+    /// What is left between the four sides; none where nothing is.
+    fn clip_by_sides(&self, span: Span, half_side: f32) -> Option<Span> {
+        let Self { low, high, .. } = self;
+        clip_by_plane(span, half_side * low.w + low.x, half_side * high.w + high.x)
+            .and_then(|span| clip_by_plane(span, half_side * low.w - low.x, half_side * high.w - high.x))
+            .and_then(|span| clip_by_plane(span, half_side * low.w + low.y, half_side * high.w + high.y))
+            .and_then(|span| clip_by_plane(span, half_side * low.w - low.y, half_side * high.w - high.y))
+            .filter(Span::has_length)
+    }
+}
+
+impl Span {
+    fn has_length(&self) -> bool {
+        self.begin < self.end
+    }
+}
+
+/// Keeps the part where the distance to a plane, linear from one end to the other, is not negative; none where it is
+/// negative at both ends. Liang & Barsky 1984.
+fn clip_by_plane(span: Span, low_distance: f32, high_distance: f32) -> Option<Span> {
+    if low_distance >= 0.0 && high_distance >= 0.0 {
+        return Some(span);
+    }
+    if low_distance < 0.0 && high_distance < 0.0 {
+        return None;
+    }
+    let crossing = low_distance / (low_distance - high_distance);
+    if low_distance < 0.0 {
+        return Some(Span { begin: span.begin.max(crossing), ..span });
+    }
+    Some(Span { end: span.end.min(crossing), ..span })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WHOLE: Span = Span { begin: 0.0, end: 1.0 };
+
+    #[test]
+    fn planes_cut_what_is_outside() {
+        assert_eq!(clip_by_plane(WHOLE, 1.0, 0.0), Some(WHOLE));
+        assert_eq!(clip_by_plane(WHOLE, -1.0, -0.5), None);
+        assert_eq!(clip_by_plane(WHOLE, -1.0, 3.0), Some(Span { begin: 0.25, end: 1.0 }));
+        assert_eq!(clip_by_plane(WHOLE, 3.0, -1.0), Some(Span { begin: 0.0, end: 0.75 }));
+        assert_eq!(clip_by_plane(Span { begin: 0.5, end: 1.0 }, -1.0, 3.0), Some(Span { begin: 0.5, end: 1.0 }));
+    }
+
+    #[test]
+    fn segment_outside_one_corner_of_the_frustum_is_empty() {
+        // Passes the left plane beyond the top plane: each plane alone leaves something.
+        let low = Vec4::new(-3.0, 0.0, 0.5, 1.0);
+        let high = Vec4::new(0.0, 3.0, 0.5, 1.0);
+        let segment = Segment { low, high, delta: high - low };
+        assert_eq!(segment.clip_by_sides(WHOLE, 1.0), None);
+        assert!(segment.clip_by_sides(WHOLE, 2.0).is_some());
+    }
+}

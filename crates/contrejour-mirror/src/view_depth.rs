@@ -1,0 +1,56 @@
+//! Depth on the light's image plane. `q` is linear there: `-1 / z` in a perspective view, `z` in an orthographic one.
+
+use contrejour_layout::LightView;
+use glam::Vec4;
+
+pub(crate) fn q_of_clip(view: &LightView, clip: Vec4) -> f32 {
+    q_of_depth(view, depth_of_clip(view, clip))
+}
+
+/// Smoothie width at a blocker's `q`, in NDC.
+pub(crate) fn smoothie_width(view: &LightView, q: f32) -> f32 {
+    let width = view.width_fixed_ndc + view.width_per_q_ndc * (view.q_max - q);
+    // Not `clamp`, which panics on bounds that are out of order; WGSL's does not.
+    width.max(view.width_min_ndc).min(view.width_max_ndc)
+}
+
+fn depth_of_clip(view: &LightView, clip: Vec4) -> f32 {
+    if view.perspective == 1 {
+        return clip.w;
+    }
+    view.near_depth * (1.0 - clip.z) + view.far_depth * clip.z
+}
+
+fn q_of_depth(view: &LightView, depth: f32) -> f32 {
+    if view.perspective == 1 {
+        return -1.0 / depth;
+    }
+    depth
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn q_is_linear_on_the_image_plane() {
+        let perspective = LightView { perspective: 1, ..Default::default() };
+        let orthographic = LightView { near_depth: 2.0, far_depth: 6.0, ..Default::default() };
+        assert_eq!(q_of_clip(&perspective, Vec4::new(0.0, 0.0, 0.3, 4.0)), -0.25);
+        assert_eq!(q_of_clip(&orthographic, Vec4::new(0.0, 0.0, 0.25, 1.0)), 3.0);
+    }
+
+    #[test]
+    fn width_grows_towards_the_light_and_keeps_its_limits() {
+        let view = LightView {
+            width_fixed_ndc: 0.01,
+            width_per_q_ndc: 0.1,
+            width_min_ndc: 0.02,
+            width_max_ndc: 0.05,
+            ..Default::default()
+        };
+        assert_eq!(smoothie_width(&view, -0.2), 0.01 + 0.1 * 0.2);
+        assert_eq!(smoothie_width(&view, -0.01), 0.02);
+        assert_eq!(smoothie_width(&view, -10.0), 0.05);
+    }
+}
