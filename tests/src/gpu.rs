@@ -1,0 +1,107 @@
+//! One device for all tests of a binary.
+
+use std::fmt::Display;
+use std::sync::OnceLock;
+
+use wgpu::util::DeviceExt;
+
+/// Set to 1, a missing adapter fails the tests that need one. Otherwise they are reported as ignored.
+pub const REQUIRE_GPU: &str = "CONTREJOUR_REQUIRE_GPU";
+
+/// A device with its queue.
+#[derive(Debug)]
+pub struct Gpu {
+    /// The device. An error that nobody catches panics with wgpu's text, and so fails the test that made it.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// Name of the adapter and of its backend.
+    pub adapter: String,
+}
+
+/// The device with WebGPU's default limits and no optional feature.
+///
+/// # Errors
+///
+/// Why there is none, in one line.
+pub fn gpu() -> Result<&'static Gpu, &'static str> {
+    static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
+    GPU.get_or_init(|| open(wgpu::Features::empty())).as_ref().map_err(String::as_str)
+}
+
+/// The device that also blends 32-bit floats.
+///
+/// # Errors
+///
+/// Why there is none, in one line; that an adapter has no such feature is a normal reason.
+pub fn gpu_blending_floats() -> Result<&'static Gpu, &'static str> {
+    static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
+    GPU.get_or_init(|| open(wgpu::Features::FLOAT32_BLENDABLE)).as_ref().map_err(String::as_str)
+}
+
+fn open(features: wgpu::Features) -> Result<Gpu, String> {
+    fn text(error: impl Display) -> String {
+        error.to_string().replace('\n', " ")
+    }
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+        .map_err(|error| format!("no adapter: {}", text(error)))?;
+    let info = adapter.get_info();
+    let descriptor = wgpu::DeviceDescriptor {
+        label: Some("tests"),
+        required_features: features,
+        required_limits: wgpu::Limits::default(),
+        ..Default::default()
+    };
+    let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+        .map_err(|error| format!("no device on {}: {}", info.name, text(error)))?;
+    Ok(Gpu { device, queue, adapter: format!("{} ({})", info.name, info.backend) })
+}
+
+impl Gpu {
+    /// A buffer that holds the bytes and, after them, zeros up to 16 bytes: an empty buffer cannot be bound.
+    pub fn upload(&self, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let mut contents = bytes.to_vec();
+        contents.resize(bytes.len().max(16).next_multiple_of(4), 0);
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents: &contents,
+            usage: usage | wgpu::BufferUsages::COPY_SRC,
+        })
+    }
+
+    /// The first records of a buffer that may be copied from.
+    ///
+    /// # Panics
+    ///
+    /// When the buffer is shorter or the device is lost.
+    pub fn read_back<T: bytemuck::Pod>(&self, buffer: &wgpu::Buffer, count: usize) -> Vec<T> {
+        let size = (count * size_of::<T>()) as u64;
+        if size == 0 {
+            return Vec::new();
+        }
+        let copy_size = size.next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT);
+        let readable = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read back"),
+            size: copy_size,
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &readable, 0, copy_size);
+        self.queue.submit([encoder.finish()]);
+        let bytes = self.map(&readable);
+        bytemuck::pod_collect_to_vec(&bytes[..size as usize])
+    }
+
+    /// All bytes of a buffer that may be mapped for reading, when the work before it is done.
+    ///
+    /// # Panics
+    ///
+    /// When the device is lost.
+    pub fn map(&self, readable: &wgpu::Buffer) -> Vec<u8> {
+        readable.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("a fresh buffer can be mapped"));
+        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
+        readable.get_mapped_range(..).expect("the buffer is mapped").to_vec()
+    }
+}

@@ -1,0 +1,56 @@
+//! Trials for tests that need the GPU.
+
+use std::env;
+use std::process::ExitCode;
+
+use libtest_mimic::{Arguments, Completion, Failed, Trial};
+
+use crate::gpu::{Gpu, REQUIRE_GPU, gpu};
+
+/// What a test returns: the first difference, in words.
+pub type Outcome = Result<(), String>;
+
+/// A test that needs the device. Without one it is ignored with the reason, or fails where a device is required.
+pub fn gpu_trial(name: impl Into<String>, test: impl FnOnce(&'static Gpu) -> Outcome + Send + 'static) -> Trial {
+    Trial::ignorable_test(name, move || match gpu() {
+        Ok(gpu) => test(gpu).map(|()| Completion::Completed).map_err(Failed::from),
+        Err(reason) => without_gpu(reason, env::var(REQUIRE_GPU).is_ok_and(|value| value == "1")),
+    })
+}
+
+/// A test that needs no device, beside tests that do.
+pub fn cpu_trial(name: impl Into<String>, test: impl FnOnce() -> Outcome + Send + 'static) -> Trial {
+    Trial::test(name, move || test().map_err(Failed::from))
+}
+
+fn without_gpu(reason: &str, required: bool) -> Result<Completion, Failed> {
+    if required {
+        return Err(Failed::from(format!("{REQUIRE_GPU}=1, and there is {reason}")));
+    }
+    Ok(Completion::ignored_with(reason))
+}
+
+/// Runs the trials as `cargo test` expects; says on which adapter.
+pub fn run(trials: Vec<Trial>) -> ExitCode {
+    let arguments = Arguments::from_args();
+    if !arguments.list {
+        match gpu() {
+            Ok(gpu) => eprintln!("adapter: {}", gpu.adapter),
+            Err(reason) => eprintln!("GPU tests cannot run: {reason}"),
+        }
+    }
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_adapter_is_never_a_pass() {
+        let ignored = without_gpu("no adapter", false).expect("ignored, and not failed");
+        assert!(matches!(ignored, Completion::Ignored { reason: Some(reason) } if reason == "no adapter"));
+        let failed = without_gpu("no adapter", true).err().expect("fails where a GPU is required");
+        assert!(failed.message().is_some_and(|message| message.contains("no adapter")));
+    }
+}

@@ -1,0 +1,162 @@
+//! One compute stage alone on the device, fed with inputs made on the CPU.
+
+use std::collections::HashMap;
+
+use naga::{AddressSpace, StorageAccess};
+
+use crate::gpu::Gpu;
+
+/// A compute pipeline whose bindings are known by the names in its WGSL.
+#[derive(Debug)]
+pub struct StageRun {
+    name: String,
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    bindings: Vec<Binding>,
+}
+
+#[derive(Debug)]
+struct Binding {
+    name: String,
+    index: u32,
+    kind: wgpu::BufferBindingType,
+}
+
+/// What the stage wrote: the bytes of each buffer that it may write, by name.
+#[derive(Debug)]
+pub struct Outputs {
+    stage: String,
+    bytes: HashMap<String, Vec<u8>>,
+}
+
+impl Outputs {
+    /// The records of a buffer.
+    ///
+    /// # Panics
+    ///
+    /// When the stage does not write a buffer of this name.
+    pub fn get<T: bytemuck::Pod>(&self, name: &str) -> Vec<T> {
+        let bytes = self.bytes.get(name).unwrap_or_else(|| panic!("{} does not write {name}", self.stage));
+        bytemuck::pod_collect_to_vec(bytes)
+    }
+}
+
+impl StageRun {
+    /// Builds the pipeline of an entry point; its bind group 0 is read off the WGSL.
+    ///
+    /// # Panics
+    ///
+    /// When the WGSL is not valid.
+    pub fn new(gpu: &Gpu, wgsl: &str, entry_point: &str) -> Self {
+        let bindings = bindings_of(wgsl);
+        let entries: Vec<_> = bindings
+            .iter()
+            .map(|binding| wgpu::BindGroupLayoutEntry {
+                binding: binding.index,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer { ty: binding.kind, has_dynamic_offset: false, min_binding_size: None },
+                count: None,
+            })
+            .collect();
+        let layout = gpu
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries });
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(entry_point),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(entry_point),
+            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+        });
+        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry_point),
+            layout: Some(&pipeline_layout),
+            module: &module,
+            entry_point: Some(entry_point),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        Self { name: entry_point.into(), pipeline, layout, bindings }
+    }
+
+    /// Runs one dispatch with a buffer for each binding, by name, and returns what it wrote.
+    ///
+    /// # Panics
+    ///
+    /// When an input is missing or has a name that no binding has.
+    pub fn run(&self, gpu: &Gpu, groups: [u32; 3], inputs: &[(&str, &[u8])]) -> Outputs {
+        for (name, _) in inputs {
+            assert!(self.bindings.iter().any(|binding| binding.name == *name), "{} binds no {name}", self.name);
+        }
+        let bytes_of = |binding: &Binding| {
+            let input = inputs.iter().find(|(name, _)| *name == binding.name);
+            input.unwrap_or_else(|| panic!("{} needs {}", self.name, binding.name)).1
+        };
+        let buffers: Vec<_> = self
+            .bindings
+            .iter()
+            .map(|binding| {
+                let usage = match binding.kind {
+                    wgpu::BufferBindingType::Uniform => wgpu::BufferUsages::UNIFORM,
+                    wgpu::BufferBindingType::Storage { .. } => wgpu::BufferUsages::STORAGE,
+                };
+                gpu.upload(&binding.name, bytes_of(binding), usage)
+            })
+            .collect();
+        let entries: Vec<_> = self
+            .bindings
+            .iter()
+            .zip(&buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding: binding.index,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&self.name),
+            layout: &self.layout,
+            entries: &entries,
+        });
+
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &bind_group, &[]);
+        pass.dispatch_workgroups(groups[0], groups[1], groups[2]);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+
+        let bytes = self
+            .bindings
+            .iter()
+            .zip(&buffers)
+            .filter(|(binding, _)| binding.kind == wgpu::BufferBindingType::Storage { read_only: false })
+            .map(|(binding, buffer)| (binding.name.clone(), gpu.read_back(buffer, bytes_of(binding).len())))
+            .collect();
+        Outputs { stage: self.name.clone(), bytes }
+    }
+}
+
+/// Bind group 0 as the WGSL declares it, also what the entry point does not use.
+fn bindings_of(wgsl: &str) -> Vec<Binding> {
+    let module = naga::front::wgsl::parse_str(wgsl).unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)));
+    let mut bindings: Vec<_> = module
+        .global_variables
+        .iter()
+        .filter_map(|(_, variable)| {
+            let resource = variable.binding.as_ref().filter(|resource| resource.group == 0)?;
+            let kind = match variable.space {
+                AddressSpace::Uniform => wgpu::BufferBindingType::Uniform,
+                AddressSpace::Storage { access } => {
+                    wgpu::BufferBindingType::Storage { read_only: !access.contains(StorageAccess::STORE) }
+                }
+                _ => return None,
+            };
+            Some(Binding { name: variable.name.clone()?, index: resource.binding, kind })
+        })
+        .collect();
+    bindings.sort_by_key(|binding| binding.index);
+    bindings
+}

@@ -1,0 +1,1 @@
+//! The house is in order: names, bytes and shader text agree on all sides.
