@@ -19,7 +19,20 @@
 //! assert_eq!(refine_args[0], DispatchArgs { x: 2, y: 1, z: 1 });
 //! ```
 
+mod build_corners;
+mod caster_position;
+mod detect_silhouette;
+mod extrude_edges;
 mod group_args;
+mod image_plane;
+mod view_depth;
+mod write_draw_args;
+mod write_extrude_args;
 mod write_refine_args;
 
+pub use build_corners::BuildCorners;
+pub use detect_silhouette::DetectSilhouette;
+pub use extrude_edges::ExtrudeEdges;
+pub use write_draw_args::WriteDrawArgs;
+pub use write_extrude_args::WriteExtrudeArgs;
 pub use write_refine_args::WriteRefineArgs;
