@@ -1,0 +1,135 @@
+// Decides by full integers the undecided faces that are left: coordinates as far apart as f32 allows.
+// One invocation = one undecided face.
+// Reads undecided, counters, casters, caster_lights, faces, positions; writes lit.
+
+@group(0) @binding(0) var<uniform> view: LightView;
+@group(0) @binding(1) var<storage, read> undecided: array<FaceRef>;
+@group(0) @binding(2) var<storage, read> counters: Counters;
+@group(0) @binding(3) var<storage, read> casters: array<Caster>;
+@group(0) @binding(4) var<storage, read> caster_lights: array<CasterLight>;
+@group(0) @binding(5) var<storage, read> faces: array<Face>;
+@group(0) @binding(6) var<storage, read> positions: array<u32>;
+@group(0) @binding(7) var<storage, read_write> lit: array<atomic<u32>>;
+
+@compute @workgroup_size(64)
+fn resolve_faces(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let place = folded_invocation(group, groups, lane);
+    if place < min(counters.undecided_far, view.undecided_capacity) {
+        let face_ref = undecided[view.undecided_capacity - 1u - place];
+        let caster = casters[face_ref.caster];
+        let face = faces[caster.first_face + face_ref.face_id];
+        if is_determinant_positive(facing_bits(caster, caster_lights[face_ref.caster], face)) {
+            let word = caster.first_lit_word + face_ref.face_id / 32u;
+            atomicOr(&lit[word], 1u << (face_ref.face_id % 32u));
+        }
+    }
+}
+
+// A difference of coordinates has at most 278 bits and a sign: 9 limbs. The determinant has 27.
+const MAX_LIMBS = 27u;
+alias Limbs = array<u32, MAX_LIMBS>;
+
+struct Signed {
+    magnitude: Limbs,
+    is_negative: bool,
+}
+
+// Coordinates that span n bits have differences below 2^(n + 1), minors below 2^(2 n + 3) and a determinant below
+// 2^(3 n + 6); with its sign that fits into 3 * `limbs` limbs when n + 3 fits into `limbs`.
+fn is_determinant_positive(bits: FacingBits) -> bool {
+    let edges = edge_span(bits);
+    let light = light_span(bits);
+    let limbs = (max(span_length(edges), span_length(light)) + 3u + 31u) / 32u;
+    var sum = Limbs();
+    for (var x = 0u; x < 3u; x++) {
+        let y = (x + 1u) % 3u;
+        let z = (x + 2u) % 3u;
+        let p = difference(bits.b[x], bits.a[x], edges.begin, limbs);
+        let q_y = difference(bits.c[y], bits.a[y], edges.begin, limbs);
+        let q_z = difference(bits.c[z], bits.a[z], edges.begin, limbs);
+        let r_y = difference(bits.light[y], bits.light_origin[y], light.begin, limbs);
+        let r_z = difference(bits.light[z], bits.light_origin[z], light.begin, limbs);
+        var minor = Limbs();
+        add_product(&minor, q_y, limbs, r_z, limbs, 2u * limbs);
+        add_product(&minor, negated(q_z), limbs, r_y, limbs, 2u * limbs);
+        add_product(&sum, p, limbs, signed(minor, 2u * limbs), 2u * limbs, 3u * limbs);
+    }
+    var any_bit = 0u;
+    for (var i = 0u; i < 3u * limbs; i++) {
+        any_bit |= sum[i];
+    }
+    return any_bit != 0u && sum[3u * limbs - 1u] >> 31u == 0u;
+}
+
+// x - y as integers on the grid that begins at this grid bit.
+fn difference(x: u32, y: u32, begin: u32, limbs: u32) -> Signed {
+    var result = Limbs();
+    add_coordinate(&result, x, begin, limbs);
+    add_coordinate(&result, y ^ 0x80000000u, begin, limbs);
+    return signed(result, limbs);
+}
+
+fn add_coordinate(sum: ptr<function, Limbs>, coordinate: u32, begin: u32, limbs: u32) {
+    let shift = grid_shift(vec3u(coordinate)).x;
+    // Bits of the mantissa below the grid's begin are zeros.
+    let integer = mantissa(vec3u(coordinate)).x >> min(begin - min(shift, begin), 31u);
+    let left = max(shift, begin) - begin;
+    let bit = left % 32u;
+    let low = integer << bit;
+    let high = integer >> 1u >> (31u - bit);
+    let mask = sign_mask(coordinate);
+    var carry = mask & 1u;
+    for (var i = 0u; i < limbs; i++) {
+        let limb = select(0u, low, i == left / 32u) | select(0u, high, i == left / 32u + 1u);
+        let limb_sum = add_carry((*sum)[i], limb ^ mask, carry);
+        (*sum)[i] = limb_sum.x;
+        carry = limb_sum.y;
+    }
+}
+
+// Magnitude and sign of a two's complement number of so many limbs.
+fn signed(number: Limbs, limbs: u32) -> Signed {
+    var result = number;
+    let mask = sign_mask(result[limbs - 1u]);
+    var carry = mask & 1u;
+    for (var i = 0u; i < limbs; i++) {
+        let limb_sum = add_carry(result[i] ^ mask, 0u, carry);
+        result[i] = limb_sum.x;
+        carry = limb_sum.y;
+    }
+    return Signed(result, mask != 0u);
+}
+
+fn negated(x: Signed) -> Signed {
+    return Signed(x.magnitude, !x.is_negative);
+}
+
+// sum += x * y, of sum_limbs limbs. A product is subtracted by adding it to the complement: ~(~s + t) = s - t.
+fn add_product(sum: ptr<function, Limbs>, x: Signed, x_limbs: u32, y: Signed, y_limbs: u32, sum_limbs: u32) {
+    var a = x.magnitude;
+    var b = y.magnitude;
+    let mask = select(0u, 0xffffffffu, x.is_negative != y.is_negative);
+    for (var i = 0u; i < sum_limbs; i++) {
+        (*sum)[i] ^= mask;
+    }
+    for (var i = 0u; i < x_limbs; i++) {
+        var carry = 0u;
+        for (var j = 0u; j < y_limbs; j++) {
+            let limb = multiply_add(a[i], b[j], (*sum)[i + j], carry);
+            (*sum)[i + j] = limb.x;
+            carry = limb.y;
+        }
+        for (var j = i + y_limbs; j < sum_limbs; j++) {
+            let limb = add_carry((*sum)[j], carry, 0u);
+            (*sum)[j] = limb.x;
+            carry = limb.y;
+        }
+    }
+    for (var i = 0u; i < sum_limbs; i++) {
+        (*sum)[i] ^= mask;
+    }
+}
