@@ -1,1 +1,23 @@
 //! Scene files of contrejour: cameras, meshes, materials, lights and shadow settings.
+//!
+//! [`Scene::open`] turns a file from the command line into a scene: a scene file, or a mesh alone, which then stands
+//! on a floor with a light and a camera. [`Scene::built_in`] has the scenes that come with contrejour.
+//! The format of scene files is described in [`scene_format`]. Y is up, everywhere.
+
+mod bounds;
+mod built_in;
+mod error;
+mod framing;
+mod obj_text;
+mod orbit;
+mod scene;
+pub mod scene_format;
+pub mod shapes;
+mod toml_text;
+
+pub use bounds::Bounds;
+pub use built_in::{BUILT_IN_SCENES, BuiltInScene};
+pub use error::{Place, Problem, SceneError};
+pub use obj_text::obj_text;
+pub use orbit::orbit;
+pub use scene::{Camera, Material, MeshSource, Scene, SceneMesh};

@@ -1,0 +1,145 @@
+//! What can be wrong with a scene.
+
+use std::path::PathBuf;
+
+use contrejour_mesh::LoadError;
+
+use crate::Scene;
+use crate::shapes::ShapeError;
+
+/// Why there is no scene.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The scene file cannot be read.
+    #[error("cannot read the scene {path}: {error}; check the path and that the file is UTF-8 text", path = path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// Something in the scene file is wrong.
+    #[error("{place}: {problem}")]
+    InFile {
+        /// Where.
+        place: Place,
+        /// What, and what to do.
+        problem: Box<Problem>,
+    },
+    /// A mesh that was given alone cannot be loaded.
+    #[error(transparent)]
+    Mesh(#[from] LoadError),
+}
+
+/// A place in a scene file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file as it was named.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{}:{}:{}", self.file, self.line, self.column)
+    }
+}
+
+/// What is wrong at a place in a scene file, and what to do about it.
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    /// Not TOML.
+    #[error("this is not valid TOML: {0}")]
+    Syntax(String),
+    /// A key that the section does not have.
+    #[error("{section} has no key `{key}`; it has {known}", known = list(known))]
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// The section it stands in.
+        section: String,
+        /// The keys that the section has.
+        known: &'static [&'static str],
+    },
+    /// A key that must be there.
+    #[error("{section} needs the key `{key}`; add it")]
+    MissingKey {
+        /// The key.
+        key: &'static str,
+        /// The section it is missing from.
+        section: String,
+    },
+    /// A value of the wrong type.
+    #[error("`{key}` is {found}; give {expected}")]
+    WrongType {
+        /// The key.
+        key: String,
+        /// What it must be.
+        expected: String,
+        /// What it is.
+        found: &'static str,
+    },
+    /// A number that makes no sense there.
+    #[error("`{key}` is {value}; give {expected}")]
+    OutOfRange {
+        /// The key.
+        key: String,
+        /// What it is.
+        value: String,
+        /// What it must be.
+        expected: String,
+    },
+    /// A name that stands for nothing.
+    #[error("`{key}` is \"{name}\"; give one of {known}", known = list(known))]
+    UnknownName {
+        /// The key.
+        key: String,
+        /// The name.
+        name: String,
+        /// The names that there are.
+        known: &'static [&'static str],
+    },
+    /// A picture that is too large or has no pixel.
+    #[error("a picture of {width} x {height} pixels cannot be made; give 1 to {most} each way", most = Scene::MAX_SIDE)]
+    PictureSize {
+        /// Width, in pixels.
+        width: u32,
+        /// Height, in pixels.
+        height: u32,
+    },
+    /// More meshes than a scene may have.
+    #[error("the scene has more than {most} meshes; join some of them", most = Scene::MAX_MESHES)]
+    TooManyMeshes,
+    /// A mesh with no or with two origins.
+    #[error("a mesh needs either `shape` or `file`; give one of them, not both")]
+    ShapeOrFile,
+    /// Depths in the wrong order.
+    #[error("`far` is {far}, not beyond `near`, {near}; give more")]
+    FarNotBeyondNear {
+        /// Nearest depth.
+        near: f64,
+        /// Farthest depth.
+        far: f64,
+    },
+    /// Two points that must differ, or a direction of no length or along the view.
+    #[error("`{key}` leaves no direction: {remedy}")]
+    NoDirection {
+        /// The key.
+        key: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A shape that cannot be generated.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// A mesh file that cannot be loaded.
+    #[error(transparent)]
+    Mesh(#[from] LoadError),
+}
+
+fn list(names: &[&str]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}

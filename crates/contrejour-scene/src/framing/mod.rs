@@ -1,0 +1,37 @@
+//! Cameras, lights and floors that follow from what is to be seen.
+
+mod camera_fit;
+mod depths;
+mod floor;
+mod room;
+
+use glam::DVec3;
+
+use crate::{Bounds, Scene, SceneMesh};
+
+pub(crate) use depths::{camera_depths, light_depths, sun_extents};
+
+/// A scene around meshes that bring none.
+pub(crate) fn frame(meshes: Vec<SceneMesh>) -> Scene {
+    let bounds = meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union);
+    if room::is_room(&meshes, &bounds) {
+        room::seen_from_within(meshes, bounds)
+    } else {
+        floor::on_a_floor(meshes, bounds)
+    }
+}
+
+/// The bounds, or a box of some size in their place where there is nothing or a single point.
+fn with_some_size(bounds: Bounds) -> Bounds {
+    if bounds.is_empty() {
+        return Bounds { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) };
+    }
+    let middle = bounds.center();
+    // Finer than this, f32 positions cannot differ.
+    let finest = 1e-7 * middle.abs().max_element();
+    if bounds.size().length() > finest {
+        return bounds;
+    }
+    let half = if finest > 0.0 { 1e3 * finest } else { 0.5 };
+    Bounds { min: middle - half, max: middle + half }
+}

@@ -1,0 +1,188 @@
+//! What a scene is.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use contrejour_mesh::{MeshFile, TriangleMesh};
+use contrejour_plan::Light;
+use glam::{DMat4, DVec3};
+
+use crate::framing::frame;
+use crate::shapes::Shape;
+use crate::toml_text::read_scene;
+use crate::{Bounds, SceneError};
+
+/// Everything that a picture needs.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// From where it is seen.
+    pub camera: Camera,
+    /// Width and height of the picture, in pixels. Range: 1 to [`Scene::MAX_SIDE`] each.
+    pub size: [u32; 2],
+    /// What is seen, what casts and what receives.
+    pub meshes: Vec<SceneMesh>,
+    /// The light that casts the shadow.
+    pub light: Light,
+    /// Linear light that is everywhere, on top of `light`. Range: 0 and up.
+    pub ambient: [f32; 3],
+    /// Linear colour where there is no mesh. Range: 0 and up.
+    pub background: [f32; 3],
+}
+
+impl Scene {
+    /// Most pixels along a side of a picture.
+    pub const MAX_SIDE: u32 = 16_384;
+
+    /// Most meshes of a scene.
+    pub const MAX_MESHES: usize = 65_536;
+
+    /// Size of a picture where the scene does not say. Unit: pixels.
+    pub const DEFAULT_SIZE: [u32; 2] = [1280, 720];
+
+    /// [`Scene::ambient`] where the scene does not say.
+    pub const DEFAULT_AMBIENT: [f32; 3] = [0.16, 0.17, 0.19];
+
+    /// [`Scene::background`] where the scene does not say.
+    pub const DEFAULT_BACKGROUND: [f32; 3] = [0.55, 0.6, 0.66];
+
+    /// The scene in a file: a scene file (`.toml`), or a mesh file, whose meshes are put [on a floor](Scene::around).
+    ///
+    /// # Errors
+    /// A file that cannot be read, a mistake in a scene file, or a mesh that cannot be loaded.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
+        let is_scene = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+        if !is_scene {
+            let mut scene = Self::around(contrejour_mesh::load(path)?);
+            for mesh in scene.meshes.iter_mut().filter(|mesh| mesh.source == MeshSource::Given) {
+                mesh.source = MeshSource::File(path.to_owned());
+            }
+            return Ok(scene);
+        }
+        let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read { path: path.to_owned(), error })?;
+        Self::from_toml(&text, path.parent().unwrap_or(Path::new("")), &path.display().to_string())
+    }
+
+    /// The scene that a scene file describes; see [`scene_format`](crate::scene_format).
+    ///
+    /// Mesh files are looked for in `base_dir`; `file_name` is for messages.
+    ///
+    /// # Errors
+    /// A mistake in the text, with its line, or a mesh that cannot be loaded.
+    pub fn from_toml(text: &str, base_dir: &Path, file_name: &str) -> Result<Self, SceneError> {
+        read_scene(text, base_dir, file_name)
+    }
+
+    /// Puts meshes on a floor under a spot light, all of it in the picture; a room is lit and seen from within.
+    ///
+    /// Works for any size and place, and for flat and empty meshes. The shadow stays in the light's cone on every
+    /// frame of an [orbit](crate::orbit).
+    pub fn around(file: MeshFile) -> Self {
+        frame(placed_meshes(file, &MeshSource::Given))
+    }
+
+    /// Bounds of all meshes in world space, floors included; empty when there is no vertex.
+    pub fn bounds(&self) -> Bounds {
+        self.meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union)
+    }
+
+    /// Width of the picture over its height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.size[0]) / f64::from(self.size[1])
+    }
+}
+
+/// A perspective camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where it is, world space.
+    pub eye: DVec3,
+    /// What it looks at, world space.
+    pub target: DVec3,
+    /// Which way is up, world space; not along the view.
+    pub up: DVec3,
+    /// Full vertical opening angle. Unit: radians. Range: more than 0 and less than pi.
+    pub fov_y: f64,
+    /// Nearest depth that is drawn, world units. Range: more than 0.
+    pub near: f64,
+    /// Farthest depth that is drawn, world units. Range: more than `near`.
+    pub far: f64,
+}
+
+impl Camera {
+    /// Eye space (right-handed, y up, looking along -z) from world space.
+    pub fn eye_from_world(&self) -> DMat4 {
+        glam::dcamera::rh::view::look_at_mat4(self.eye, self.target, self.up)
+    }
+
+    /// Clip space (z from 0 to 1) from world space.
+    pub fn clip_from_world(&self, aspect: f64) -> DMat4 {
+        glam::dcamera::rh::proj::directx::perspective(self.fov_y, aspect, self.near, self.far) * self.eye_from_world()
+    }
+}
+
+/// A mesh in its place.
+#[derive(Clone, Debug)]
+pub struct SceneMesh {
+    /// Its name in the scene, for messages.
+    pub name: String,
+    /// Where its triangles come from.
+    pub source: MeshSource,
+    /// Its triangles.
+    pub mesh: Arc<TriangleMesh>,
+    /// World space from the mesh's object space.
+    pub world_from_object: DMat4,
+    /// How it looks.
+    pub material: Material,
+    /// Whether it throws a shadow. Default: true.
+    pub casts: bool,
+    /// Whether it takes shadows. Default: true.
+    pub receives: bool,
+}
+
+impl SceneMesh {
+    /// Its bounds in world space; empty when it has no vertex.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(
+            self.mesh
+                .positions
+                .iter()
+                .map(|position| self.world_from_object.transform_point3(DVec3::from(position.map(f64::from)))),
+        )
+    }
+}
+
+/// Where the triangles of a mesh come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeshSource {
+    /// Generated.
+    Shape(Shape),
+    /// Read from a file.
+    File(PathBuf),
+    /// Given by the caller.
+    Given,
+}
+
+/// How a mesh looks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Material {
+    /// Linear base colour that replaces the mesh's own vertex colours. Range: 0 to 1. Default: none, the mesh's own.
+    pub base_color: Option<[f32; 3]>,
+}
+
+/// The meshes of a file where it puts them. A node that names no mesh of the file places nothing.
+pub(crate) fn placed_meshes(file: MeshFile, source: &MeshSource) -> Vec<SceneMesh> {
+    let meshes: Vec<Arc<TriangleMesh>> = file.meshes.into_iter().map(Arc::new).collect();
+    let placed = file.nodes.iter().filter_map(|node| {
+        let mesh = meshes.get(node.mesh)?;
+        Some(SceneMesh {
+            name: mesh.name.clone(),
+            source: source.clone(),
+            mesh: Arc::clone(mesh),
+            world_from_object: node.world_from_object,
+            material: Material::default(),
+            casts: true,
+            receives: true,
+        })
+    });
+    placed.collect()
+}

@@ -1,0 +1,107 @@
+//! The format of scene files.
+//!
+//! A scene file is TOML. Lengths are in world units, y is up, colours are linear, and angles are in degrees (their
+//! keys end in `_degrees`; everywhere in code angles are radians). A key that is not in these tables is refused, and
+//! so is a number that is not finite or beyond 1e15. A scene has at most 65 536 meshes.
+//!
+//! ```toml
+//! size = [1280, 720]
+//!
+//! [camera]
+//! eye = [3, 2, 5]
+//! target = [0, 0.5, 0]
+//!
+//! [light]
+//! kind = "spot"
+//! position = [-3, 5, 2]
+//! target = [0, 0.5, 0]
+//! cone_angle_degrees = 50
+//! radius = 0.2
+//!
+//! [[mesh]]
+//! shape = { kind = "plane", size = [8, 8] }
+//! casts = false
+//!
+//! [[mesh]]
+//! shape = { kind = "torus", radius = 0.8 }
+//! rotate_degrees = [90, 0, 0]
+//! translate = [0, 1.2, 0]
+//! base_color = [0.8, 0.3, 0.1]
+//! ```
+//!
+//! # The scene
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `size` | width and height of the picture, 1 to 16384 pixels each | `[1280, 720]` |
+//! | `ambient` | light that is everywhere | `[0.16, 0.17, 0.19]` |
+//! | `background` | colour where there is no mesh | `[0.55, 0.6, 0.66]` |
+//! | `camera` | a table | must be given |
+//! | `light` | a table | must be given |
+//! | `mesh` | an array of tables | must be given |
+//!
+//! # `[camera]`
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `eye` | where it is | must be given |
+//! | `target` | what it looks at | must be given |
+//! | `up` | which way is up | `[0, 1, 0]` |
+//! | `fov_y_degrees` | full vertical opening angle, 0.01 to 179 | `40` |
+//! | `near`, `far` | depths between which it sees | around all meshes |
+//!
+//! # `[light]`
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `kind` | `"spot"` or `"directional"` | must be given |
+//! | `color` | colour times intensity | `[1, 1, 1]` |
+//!
+//! A spot light has:
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `position` | where it is | must be given |
+//! | `target` | what it shines at | must be given |
+//! | `cone_angle_degrees` | full opening angle, 0.01 to 179 | `60` |
+//! | `radius` | radius of the disk that shines, 0 and up | `0` |
+//! | `near`, `far` | depths between which it casts and is received | around all meshes |
+//!
+//! A directional light has:
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `towards_light` | direction from the scene to the light | must be given |
+//! | `center` | middle of what is shadowed | the middle of all meshes |
+//! | `half_extent` | half the side of the square that is shadowed | around all meshes |
+//! | `half_depth` | half the depth that is shadowed | around all meshes |
+//! | `angular_radius_degrees` | angular radius of the disk that shines, 0 to less than 90 | `0.27`, the sun's |
+//!
+//! # `[[mesh]]`
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `shape` | a table, see below | either this |
+//! | `file` | a mesh file (.obj, .gltf, .glb, .ply, .stl), relative to the scene file | or this |
+//! | `name` | a name for messages | the shape's kind, or the name in the file |
+//! | `scale` | one number or three, not 0 | `1` |
+//! | `rotate_degrees` | turns about x, then y, then z, after scaling | `[0, 0, 0]` |
+//! | `translate` | moves after turning | `[0, 0, 0]` |
+//! | `base_color` | colour of the surface, 0 to 1 | the mesh's own |
+//! | `casts` | whether it throws a shadow | `true` |
+//! | `receives` | whether it takes shadows | `true` |
+//!
+//! # `shape`
+//!
+//! | `kind` | Keys with their defaults |
+//! | --- | --- |
+//! | `"plane"` | `size = [10, 10]`, `segments = 1` |
+//! | `"box"` | `size = [1, 1, 1]` |
+//! | `"cylinder"` | `radius = 0.5`, `height = 1`, `segments = 96` |
+//! | `"sphere"` | `radius = 0.5`, `segments = 64` |
+//! | `"torus"` | `radius = 1`, `tube_radius = 0.35`, `segments = 128`, `sides = 48` |
+//! | `"knot"` | `radius = 1`, `tube_radius = 0.22`, `segments = 320`, `sides = 40` |
+//! | `"fence"` | `size = [4, 2, 0.04]`, `columns = 32`, `rows = 16`, `bar = 0.04` |
+//! | `"elephant"` | `height = 2`, `segments = 96` |
+//!
+//! Their meaning and ranges stand at [`Shape`](crate::shapes::Shape).
