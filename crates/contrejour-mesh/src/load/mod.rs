@@ -3,6 +3,10 @@
 mod error;
 #[cfg(feature = "obj")]
 mod obj;
+#[cfg(feature = "ply")]
+mod ply;
+#[cfg(feature = "stl")]
+mod stl;
 
 use std::fs;
 use std::path::Path;
@@ -12,6 +16,10 @@ use crate::MeshFile;
 pub use error::LoadError;
 #[cfg(feature = "obj")]
 pub use obj::load_obj;
+#[cfg(feature = "ply")]
+pub use ply::load_ply;
+#[cfg(feature = "stl")]
+pub use stl::load_stl;
 
 /// Loads a mesh file; its extension (.obj, .gltf, .glb, .ply, .stl, in any case) names the format.
 ///
@@ -37,7 +45,14 @@ pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
     match format {
         #[cfg(feature = "obj")]
         "obj" => load_obj(&bytes, path),
-        feature => Err(LoadError::FormatDisabled { path: path.into(), feature }),
+        #[cfg(feature = "ply")]
+        "ply" => load_ply(&bytes, path),
+        #[cfg(feature = "stl")]
+        "stl" => load_stl(&bytes, path),
+        feature => Err(LoadError::FormatDisabled {
+            path: path.into(),
+            feature,
+        }),
     }
 }
 
@@ -46,7 +61,10 @@ fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {
     if path.is_dir() {
         return Err(LoadError::Directory { path: path.into() });
     }
-    fs::read(path).map_err(|source| LoadError::Read { path: path.into(), source })
+    fs::read(path).map_err(|source| LoadError::Read {
+        path: path.into(),
+        source,
+    })
 }
 
 /// File name without extension: the name of a mesh in formats that name none.
@@ -67,6 +85,10 @@ fn is_finite(position: [f32; 3]) -> bool {
 fn linear_from_srgb(color: [f32; 3]) -> [f32; 3] {
     color.map(|channel| {
         let channel = channel.clamp(0.0, 1.0);
-        if channel > 0.040_45 { ((channel + 0.055) / 1.055).powf(2.4) } else { channel / 12.92 }
+        if channel > 0.040_45 {
+            ((channel + 0.055) / 1.055).powf(2.4)
+        } else {
+            channel / 12.92
+        }
     })
 }
