@@ -193,3 +193,123 @@ fn cap(edge_end: &EdgeEnd) -> Wedge {
     let (begin, end) = if edge_end.turn > 0.0 { (outward, beyond) } else { (beyond, outward) };
     Wedge { begin, end, kind: CORNER_CAP }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_scene::{TestLight, TestScene};
+
+    fn angle(corner: &Corner) -> f32 {
+        Vec2::from(corner.begin).angle_to(Vec2::from(corner.end)).to_degrees()
+    }
+
+    /// (vertex, angle in degrees, kind) by ascending vertex.
+    fn wedges(scene: &TestScene) -> Vec<(u32, f32, u32)> {
+        let mut corners = scene.outline().corners;
+        corners.sort_by_key(|corner| (corner.vertex_id, corner.edge_id));
+        for corner in &corners {
+            let middle = 0.5 * angle(corner).to_radians();
+            assert!(
+                Vec2::from(corner.middle).distance(Vec2::from_angle(middle).rotate(Vec2::from(corner.begin))) < 1e-5
+            );
+        }
+        corners.iter().map(|corner| (corner.vertex_id, angle(corner).round(), corner.kind)).collect()
+    }
+
+    #[test]
+    fn wedges_of_a_triangle_turn_once_around() {
+        let corners = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]];
+        let wedges = wedges(&TestScene::flat(&corners, &[[0, 1, 2]]));
+        assert_eq!(wedges, [(0, 90.0, CORNER_WEDGE), (1, 135.0, CORNER_WEDGE), (2, 135.0, CORNER_WEDGE)]);
+    }
+
+    #[test]
+    fn wedge_begins_and_ends_at_the_quads() {
+        let corners = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]];
+        let outline = TestScene::flat(&corners, &[[0, 1, 2]]).outline();
+        let corner = outline.corners.iter().find(|corner| corner.vertex_id == 0).expect("vertex 0 is convex");
+        assert_eq!((corner.begin, corner.end), ([-1.0, 0.0], [0.0, -1.0]));
+        assert_eq!((corner.apex_ndc, corner.q, corner.width_ndc), ([0.0, 0.0], 4.0, 0.05));
+    }
+
+    #[test]
+    fn concave_vertex_needs_no_corner() {
+        // 5-----4
+        // |     |
+        // |  2--3
+        // |  |
+        // 0--1
+        let corners = [[0.0, 0.0], [0.2, 0.0], [0.2, 0.2], [0.4, 0.2], [0.4, 0.4], [0.0, 0.4]];
+        let wedges = wedges(&TestScene::flat(&corners, &[[0, 1, 2], [0, 2, 5], [2, 4, 5], [2, 3, 4]]));
+        let vertices: Vec<_> = wedges.iter().map(|&(vertex, ..)| vertex).collect();
+        assert_eq!(vertices, [0, 1, 3, 4, 5]);
+        assert!(wedges.iter().all(|&(_, angle, kind)| angle == 90.0 && kind == CORNER_WEDGE));
+    }
+
+    #[test]
+    fn vertex_between_collinear_edges_needs_no_corner() {
+        let corners = [[0.0, 0.0], [0.25, 0.1], [0.5, 0.2], [0.0, 0.5]];
+        let wedges = wedges(&TestScene::flat(&corners, &[[0, 1, 3], [1, 2, 3]]));
+        assert_eq!(wedges.iter().map(|&(vertex, ..)| vertex).collect::<Vec<_>>(), [0, 2, 3]);
+    }
+
+    #[test]
+    fn bow_tie_closes_each_sector_that_needs_it() {
+        // 3     2
+        // | \ / |
+        // |  0  |
+        // | / \ |
+        // 4     1
+        let corners = [[0.0, 0.0], [0.2, -0.2], [0.2, 0.2], [-0.2, 0.2], [-0.2, -0.2]];
+        let quarter_sectors = TestScene::flat(&corners, &[[0, 1, 2], [0, 3, 4]]);
+        assert!(wedges(&quarter_sectors).iter().all(|&(vertex, ..)| vertex != 0));
+
+        // Both faces above the vertex: the sector below them spans more than half a turn.
+        let corners = [[0.0, 0.0], [0.3, 0.0], [0.3, 0.2], [-0.3, 0.2], [-0.3, 0.1]];
+        let one_wide_sector = wedges(&TestScene::flat(&corners, &[[0, 1, 2], [0, 3, 4]]));
+        let at_the_tie: Vec<_> = one_wide_sector.iter().filter(|&&(vertex, ..)| vertex == 0).collect();
+        assert_eq!(at_the_tie, [&(0, 18.0, CORNER_WEDGE)]);
+    }
+
+    #[test]
+    fn needle_is_closed_by_two_caps() {
+        // The tip's outside sector is a full turn but for a thousandth.
+        let corners = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.0005]];
+        let wedges = wedges(&TestScene::flat(&corners, &[[0, 1, 2]]));
+        assert_eq!(wedges[..2], [(0, 90.0, CORNER_CAP), (0, 90.0, CORNER_CAP)]);
+        assert!(wedges[2..].iter().all(|&(_, _, kind)| kind == CORNER_WEDGE));
+    }
+
+    #[test]
+    fn neighbour_that_projects_to_a_point_asks_for_caps() {
+        let positions = [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let outline = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Directional).outline();
+        assert_eq!(outline.corners.len(), 4);
+        assert!(outline.corners.iter().all(|corner| corner.kind == CORNER_CAP));
+        // At vertex 0 from below to the left, at vertex 2 from the left to above.
+        let at =
+            |vertex| outline.corners.iter().find(|corner| corner.vertex_id == vertex).expect("both ends are capped");
+        let rounded = |direction: [f32; 2]| Vec2::from(direction).round() + 0.0;
+        assert_eq!(rounded(at(0).end), rounded(at(2).begin));
+    }
+
+    #[test]
+    fn hub_with_too_many_spokes_is_capped() {
+        for (spokes, kind) in [(100, CORNER_WEDGE), (300, CORNER_CAP)] {
+            // Half a disk: the two straight edges meet at the hub at slightly less than half a turn.
+            let rim = |i| Vec2::from_angle(3.0 * i as f32 / spokes as f32) * 0.5;
+            let mut positions = vec![[0.0, 0.0]];
+            positions.extend((0..spokes).map(|i| rim(i).to_array()));
+            let faces: Vec<_> = (1..spokes).map(|i| [0, i, i + 1]).collect();
+            let outline = TestScene::flat(&positions, &faces).outline();
+            let at_hub: Vec<_> = outline.corners.iter().filter(|corner| corner.vertex_id == 0).collect();
+            assert!(!at_hub.is_empty() && at_hub.iter().all(|corner| corner.kind == kind), "{spokes} spokes");
+        }
+    }
+
+    #[test]
+    fn ends_that_were_cut_off_have_no_corner() {
+        let wedges = wedges(&TestScene::flat(&[[0.0, 0.0], [3.0, 0.0], [0.0, 0.5]], &[[0, 1, 2]]));
+        assert_eq!(wedges.iter().map(|&(vertex, ..)| vertex).collect::<Vec<_>>(), [0, 2]);
+    }
+}

@@ -174,7 +174,10 @@ fn clip_by_plane(span: Span, low_distance: f32, high_distance: f32) -> Option<Sp
 
 #[cfg(test)]
 mod tests {
+    use glam::{DVec3, Vec2};
+
     use super::*;
+    use crate::test_scene::{TestLight, TestScene};
 
     const WHOLE: Span = Span { begin: 0.0, end: 1.0 };
 
@@ -195,5 +198,69 @@ mod tests {
         let segment = Segment { low, high, delta: high - low };
         assert_eq!(segment.clip_by_sides(WHOLE, 1.0), None);
         assert!(segment.clip_by_sides(WHOLE, 2.0).is_some());
+    }
+
+    #[test]
+    fn smoothies_extend_away_from_the_face() {
+        let corners = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]];
+        for faces in [[[0, 1, 2]], [[0, 2, 1]]] {
+            let outline = TestScene::flat(&corners, &faces).outline();
+            let outwards: Vec<_> = outline.quads.iter().map(|quad| quad.outward).collect();
+            assert_eq!(outwards[..2], [[0.0, -1.0], [-1.0, 0.0]]);
+            assert!(Vec2::from(outwards[2]).distance(Vec2::splat(0.5_f32.sqrt())) < 1e-6);
+            assert!(outline.quads.iter().all(|quad| quad.own_ends == OWN_END_LOW | OWN_END_HIGH));
+            assert_eq!((outline.quads[0].low_ndc, outline.quads[0].high_ndc), ([0.0, 0.0], [0.5, 0.0]));
+            assert_eq!((outline.quads[0].q, outline.quads[0].width_ndc), ([4.0; 2], [0.05; 2]));
+        }
+    }
+
+    #[test]
+    fn edge_along_the_light_is_counted_and_has_no_quad() {
+        let positions = [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let outline = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Directional).outline();
+        assert_eq!(outline.counters.silhouette_edges, 3);
+        assert_eq!(outline.counters.point_edges, 1);
+        assert_eq!(outline.quads.iter().map(|quad| quad.edge_id).collect::<Vec<_>>(), [0, 2]);
+    }
+
+    #[test]
+    fn edges_are_cut_at_the_near_plane_and_behind_the_light() {
+        // 0 and 1 lie before the light, 2 behind it.
+        let positions = [[-1.0, 0.0, -4.0], [1.0, 0.0, -4.0], [0.0, 1.0, 4.0]];
+        let outline = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Spot(DVec3::ZERO)).outline();
+        assert_eq!(outline.counters.quads, 3);
+        let [base, left, right] = [0, 1, 2].map(|i| outline.quads[i]);
+        assert_eq!(base.own_ends, OWN_END_LOW | OWN_END_HIGH);
+        assert_eq!((base.low_ndc, base.high_ndc, base.outward), ([-0.25, 0.0], [0.25, 0.0], [0.0, -1.0]));
+        for (quad, sign) in [(left, -1.0), (right, 1.0)] {
+            // At depth 1, three eighths of the way: x = 5 / 8 of the lower end's, y = 3 / 8.
+            assert_eq!(quad.own_ends, OWN_END_LOW);
+            assert!(Vec2::from(quad.high_ndc).distance(Vec2::new(sign * 0.625, 0.375)) < 1e-6);
+            assert!((quad.q[1] + 1.0).abs() < 1e-6);
+            // The face lies between the two edges' images, above the base.
+            let outward = Vec2::new(sign, -1.0).normalize();
+            assert!(Vec2::from(quad.outward).distance(outward) < 1e-6, "{quad:?}");
+        }
+    }
+
+    #[test]
+    fn edges_are_cut_where_their_smoothie_leaves_the_view() {
+        let outline = TestScene::flat(&[[0.0, 0.0], [3.0, 0.0], [0.0, 0.5]], &[[0, 1, 2]]).outline();
+        let cut = outline.quads[0];
+        assert_eq!(cut.own_ends, OWN_END_LOW);
+        assert!((cut.high_ndc[0] - 1.05).abs() < 1e-6);
+
+        let outside = TestScene::flat(&[[1.1, 0.0], [3.0, 0.0], [1.1, 0.5]], &[[0, 1, 2]]).outline();
+        assert_eq!((outside.counters.silhouette_edges, outside.counters.quads), (3, 0));
+    }
+
+    #[test]
+    fn nothing_behind_the_light_or_beyond_the_far_plane_has_quads() {
+        for z in [0.5, 2.0, -9.5] {
+            let positions = [[0.0, 0.0, z], [0.5, 0.0, z], [0.0, 0.5, z]];
+            let outline = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Spot(DVec3::ZERO)).outline();
+            assert_eq!(outline.counters.silhouette_edges, 3);
+            assert_eq!((outline.counters.quads, outline.counters.corners), (0, 0), "at {z}");
+        }
     }
 }
