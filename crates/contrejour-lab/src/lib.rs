@@ -1,1 +1,5 @@
 //! Measuring contrejour: benches and reports.
+
+mod torus;
+
+pub use torus::{Triangles, torus};

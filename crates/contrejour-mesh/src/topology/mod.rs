@@ -1,5 +1,27 @@
 //! The one type that the compute stages read, and how it is built.
 
+mod build;
+mod classes;
+mod components;
+mod edge_table;
+mod error;
+mod exact;
+mod faces;
+mod half_edges;
+mod partners;
+mod report;
+mod report_text;
+mod vertex_edges;
+mod weld;
+mod weld_near;
+
+pub use build::{BuildOptions, Motion};
+pub use classes::EdgeClass;
+pub use edge_table::{EdgeTable, incidence_words};
+pub use error::{MAX_FACES, MAX_VERTICES, TopologyError};
+pub use partners::Partner;
+pub use report::{FINDINGS_LISTED, Findings, TopologyReport};
+
 use contrejour_layout::{Edge, Face, VertexEdge};
 
 /// The triangles plus all that a shader must know about their neighbours, ready for upload.
@@ -33,36 +55,3 @@ pub struct TopologyAwareMesh {
     /// What was found on the way.
     pub report: TopologyReport,
 }
-
-/// How the faces meet at an edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[repr(u8)]
-pub enum EdgeClass {
-    /// Two consistently wound faces that bend away from their fronts.
-    Convex,
-    /// Two consistently wound faces that bend towards their fronts.
-    Concave,
-    /// Two faces in one plane.
-    Coplanar,
-    /// One face.
-    Border,
-    /// Three and more faces.
-    NonManifold,
-    /// Two faces that are wound against each other.
-    Flipped,
-}
-
-/// Whose sign a face without area takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Partner {
-    /// The face without area.
-    pub face: u32,
-    /// The face with area whose sign it takes; `None`: it is unlit.
-    pub of: Option<u32>,
-    /// Whether it takes the opposite of that sign.
-    pub negated: bool,
-}
-
-/// What a mesh is made of and what is wrong with it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct TopologyReport {}
