@@ -21,28 +21,27 @@
 
 mod build_corners;
 mod caster_position;
+mod classify_faces;
 mod detect_silhouette;
 mod extrude_edges;
-mod classify_faces;
 mod facing;
 mod group_args;
+mod image_plane;
 mod refine_faces;
 mod resolve_faces;
-mod wide_integer;
-mod image_plane;
-#[cfg(test)]
 mod test_scene;
 mod view_depth;
+mod wide_integer;
 mod write_draw_args;
 mod write_extrude_args;
 mod write_refine_args;
 
 pub use build_corners::BuildCorners;
+pub use classify_faces::ClassifyFaces;
 pub use detect_silhouette::DetectSilhouette;
 pub use extrude_edges::ExtrudeEdges;
-pub use write_draw_args::WriteDrawArgs;
-pub use write_extrude_args::WriteExtrudeArgs;
-pub use classify_faces::ClassifyFaces;
 pub use refine_faces::RefineFaces;
 pub use resolve_faces::ResolveFaces;
+pub use write_draw_args::WriteDrawArgs;
+pub use write_extrude_args::WriteExtrudeArgs;
 pub use write_refine_args::WriteRefineArgs;
