@@ -157,7 +157,7 @@ impl Light {
                 positive("half extent", half_extent)?;
                 positive("half depth", half_depth)?;
                 positive("depth range", 2.0 * half_depth)?;
-                if !(angular_radius >= 0.0 && angular_radius < FRAC_PI_2) {
+                if !(0.0..FRAC_PI_2).contains(&angular_radius) {
                     return Err(LightError::AngularRadius { radians: angular_radius });
                 }
                 not_negative("angular radius' tangent over the half extent", angular_radius.tan() / half_extent)

@@ -3,7 +3,7 @@
 /// The exponent of the power of two at or below a normal positive number; -1023 below the normal ones.
 pub(super) fn exponent_of(value: f64) -> i32 {
     const EXPONENT_BIAS: i32 = 1023;
-    (value.to_bits() >> f64::MANTISSA_DIGITS - 1) as i32 - EXPONENT_BIAS
+    (value.to_bits() >> (f64::MANTISSA_DIGITS - 1)) as i32 - EXPONENT_BIAS
 }
 
 #[cfg(test)]

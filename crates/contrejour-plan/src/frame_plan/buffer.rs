@@ -1,0 +1,146 @@
+//! The buffers of a frame.
+
+use contrejour_layout as layout;
+
+/// A buffer of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum BufferKind {
+    /// Positions of all meshes, in words; then those that callers bring.
+    Positions,
+    /// Faces of all meshes.
+    Faces,
+    /// Edges of all meshes that can be in a silhouette.
+    Edges,
+    /// Lists of incidence words of all meshes.
+    Incidences,
+    /// Vertex offsets and vertex edges of all meshes, in words.
+    VertexEdges,
+    /// Caster records.
+    Casters,
+    /// Work items of faces.
+    FaceItems,
+    /// Work items of edges.
+    EdgeItems,
+    /// The light as each caster sees it.
+    CasterLights,
+    /// The light view; a uniform.
+    LightView,
+    /// The light view as receivers see it; a uniform.
+    ReceiverView,
+    /// Lit bits, in words.
+    Lit,
+    /// Undecided faces: from the front those for short integers, from the back those for full ones.
+    Undecided,
+    /// Dispatch arguments of `refine_faces` and `resolve_faces`.
+    RefineArgs,
+    /// What the stages counted.
+    Counters,
+    /// The list of silhouette edges.
+    Silhouettes,
+    /// Outline side of each edge, in words.
+    OutlineSides,
+    /// Dispatch arguments of `extrude_edges` and `build_corners`.
+    ExtrudeArgs,
+    /// Quads.
+    Quads,
+    /// Corners.
+    Corners,
+    /// Draw arguments of quads and of corners.
+    DrawArgs,
+}
+
+/// A buffer that the frame needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct BufferPlan {
+    /// Which one.
+    pub kind: BufferKind,
+    /// Records, or words, that it has room for.
+    pub items: u64,
+    /// Its size in bytes. At least one record, since an empty buffer can't be bound.
+    pub bytes: u64,
+}
+
+impl BufferKind {
+    /// All buffers.
+    pub const ALL: [Self; 21] = [
+        Self::Positions,
+        Self::Faces,
+        Self::Edges,
+        Self::Incidences,
+        Self::VertexEdges,
+        Self::Casters,
+        Self::FaceItems,
+        Self::EdgeItems,
+        Self::CasterLights,
+        Self::LightView,
+        Self::ReceiverView,
+        Self::Lit,
+        Self::Undecided,
+        Self::RefineArgs,
+        Self::Counters,
+        Self::Silhouettes,
+        Self::OutlineSides,
+        Self::ExtrudeArgs,
+        Self::Quads,
+        Self::Corners,
+        Self::DrawArgs,
+    ];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Positions => "positions",
+            Self::Faces => "faces",
+            Self::Edges => "edges",
+            Self::Incidences => "incidences",
+            Self::VertexEdges => "vertex_edges",
+            Self::Casters => "casters",
+            Self::FaceItems => "face_items",
+            Self::EdgeItems => "edge_items",
+            Self::CasterLights => "caster_lights",
+            Self::LightView => "light_view",
+            Self::ReceiverView => "receiver_view",
+            Self::Lit => "lit",
+            Self::Undecided => "undecided",
+            Self::RefineArgs => "refine_args",
+            Self::Counters => "counters",
+            Self::Silhouettes => "silhouettes",
+            Self::OutlineSides => "outline_sides",
+            Self::ExtrudeArgs => "extrude_args",
+            Self::Quads => "quads",
+            Self::Corners => "corners",
+            Self::DrawArgs => "draw_args",
+        }
+    }
+
+    /// Size of one record or word, in bytes.
+    pub const fn item_bytes(self) -> u64 {
+        let bytes = match self {
+            Self::Positions | Self::Incidences | Self::VertexEdges | Self::Lit | Self::OutlineSides => 4,
+            Self::Faces => size_of::<layout::Face>(),
+            Self::Edges => size_of::<layout::Edge>(),
+            Self::Casters => size_of::<layout::Caster>(),
+            Self::FaceItems | Self::EdgeItems => size_of::<layout::WorkItem>(),
+            Self::CasterLights => size_of::<layout::CasterLight>(),
+            Self::LightView => size_of::<layout::LightView>(),
+            Self::ReceiverView => size_of::<layout::ReceiverView>(),
+            Self::Undecided => size_of::<layout::FaceRef>(),
+            Self::RefineArgs | Self::ExtrudeArgs => size_of::<layout::DispatchArgs>(),
+            Self::Counters => size_of::<layout::Counters>(),
+            Self::Silhouettes => size_of::<layout::SilhouetteEdge>(),
+            Self::Quads => size_of::<layout::Quad>(),
+            Self::Corners => size_of::<layout::Corner>(),
+            Self::DrawArgs => size_of::<layout::DrawArgs>(),
+        };
+        bytes as u64
+    }
+}
+
+impl BufferPlan {
+    pub(super) fn new(kind: BufferKind, items: u64) -> Self {
+        Self { kind, items, bytes: items.max(1).saturating_mul(kind.item_bytes()) }
+    }
+}

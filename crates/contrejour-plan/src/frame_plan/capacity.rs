@@ -1,0 +1,115 @@
+//! Room for quads and corners, which are few and whose number only the GPU knows.
+
+use contrejour_layout::Counters;
+
+use super::MeshFacts;
+
+/// Capacities end at a multiple of this, so that small differences between frames do not matter.
+const GRANULE: u64 = 64;
+
+/// Room for quads and corners.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Capacity {
+    /// Quads. Never more than there are edges.
+    pub quads: u32,
+    /// Corners. Never more than there are ends of edges.
+    pub corners: u32,
+}
+
+impl Capacity {
+    /// Whether there was room for what a frame counted.
+    pub fn holds(&self, needed: &Counters) -> bool {
+        needed.quads <= self.quads && needed.corners <= self.corners
+    }
+
+    /// The capacity for the next frame after one that counted `needed`: where that was too much a quarter more than
+    /// needed, else as it is.
+    pub fn grown_for(self, needed: &Counters) -> Self {
+        let grown = |capacity: u32, needed: u32| {
+            if needed <= capacity {
+                return capacity;
+            }
+            saturating_u32(round_up(u64::from(needed) + u64::from(needed).div_ceil(4)))
+        };
+        Self { quads: grown(self.quads, needed.quads), corners: grown(self.corners, needed.corners) }
+    }
+
+    /// Room for a first frame of casters with these meshes, at least `floor`, at most what they can ever need.
+    pub(super) fn of_casters<'a>(meshes: impl Iterator<Item = &'a MeshFacts> + Clone, floor: Self) -> Self {
+        let outline_edges = round_up(meshes.clone().map(estimated_outline_edges).sum());
+        let most_edges = meshes.map(MeshFacts::edges).sum();
+        let between = |floor: u32, most: u64| saturating_u32(outline_edges.max(floor.into()).min(most));
+        // An outline that is a loop has as many vertices as edges, and at most one wedge at each. Where many edges
+        // meet in a vertex, each can need one at both ends.
+        Self { quads: between(floor.quads, most_edges), corners: between(floor.corners, 2 * most_edges) }
+    }
+}
+
+/// A mesh of f faces has about 0.7 f^0.8 silhouette edges between two faces (McGuire 2004, "Observations on silhouette
+/// sizes"). A border or non-manifold edge may always be one.
+fn estimated_outline_edges(mesh: &MeshFacts) -> u64 {
+    let two_face = (0.7 * f64::from(mesh.faces).powf(0.8)).ceil() as u64;
+    two_face.min(mesh.two_face_edges.into()) + u64::from(mesh.other_edges)
+}
+
+fn round_up(count: u64) -> u64 {
+    count.next_multiple_of(GRANULE)
+}
+
+fn saturating_u32(count: u64) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(faces: u32, two_face_edges: u32, other_edges: u32) -> MeshFacts {
+        MeshFacts { faces, two_face_edges, other_edges, ..MeshFacts::default() }
+    }
+
+    fn capacity(meshes: &[MeshFacts]) -> Capacity {
+        Capacity::of_casters(meshes.iter(), Capacity::default())
+    }
+
+    #[test]
+    fn closed_meshes_start_from_the_estimate() {
+        // 0.7 * 1 000 000 ^ 0.8 = 44 167.
+        let capacity = capacity(&[mesh(1_000_000, 1_500_000, 0)]);
+        assert_eq!(capacity, Capacity { quads: 44_224, corners: 44_224 });
+    }
+
+    #[test]
+    fn borders_all_count() {
+        assert_eq!(capacity(&[mesh(1_000, 0, 3_000)]).quads, 3_000);
+        let two = [mesh(1_000, 0, 3_000), mesh(1_000_000, 1_500_000, 10)];
+        assert_eq!(capacity(&two).quads, (44_167_u32 + 3_010).next_multiple_of(64));
+    }
+
+    #[test]
+    fn small_meshes_have_room_for_everything() {
+        assert_eq!(capacity(&[mesh(12, 18, 0)]), Capacity { quads: 18, corners: 36 });
+        assert_eq!(capacity(&[]), Capacity { quads: 0, corners: 0 });
+    }
+
+    #[test]
+    fn what_was_missing_comes_with_a_quarter_more() {
+        let capacity = Capacity { quads: 64, corners: 64 };
+        let counted = Counters { quads: 100, corners: 64, ..Counters::default() };
+        assert!(!capacity.holds(&counted));
+        let grown = capacity.grown_for(&counted);
+        assert_eq!(grown, Capacity { quads: 128, corners: 64 });
+        assert!(grown.holds(&counted));
+        let counted = Counters { quads: u32::MAX, ..Counters::default() };
+        assert_eq!(capacity.grown_for(&counted).quads, u32::MAX);
+    }
+
+    #[test]
+    fn the_floor_raises_up_to_what_can_be_needed() {
+        let meshes = [mesh(1_000_000, 1_500_000, 0)];
+        let floor = Capacity { quads: 100_000, corners: u32::MAX };
+        let capacity = Capacity::of_casters(meshes.iter(), floor);
+        assert_eq!(capacity, Capacity { quads: 100_000, corners: 3_000_000 });
+    }
+}

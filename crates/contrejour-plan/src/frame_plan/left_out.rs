@@ -1,0 +1,112 @@
+//! What a frame does not do, and why.
+
+use core::fmt;
+
+use super::Pass;
+
+/// Something that the plan left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LeftOut {
+    /// What.
+    pub what: Omitted,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// What can be left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Omitted {
+    /// The stages that find silhouettes, with their buffers.
+    DetectionStages,
+    /// The stages that make quads and corners, with their buffers.
+    ExtrusionStages,
+    /// All smoothie passes, with their textures.
+    SmoothiePasses,
+    /// One pass, with its textures.
+    Pass(Pass),
+    /// The work items of the caster of this name.
+    CasterWork(String),
+    /// Topology and caster record of the mesh of this name.
+    Topology(String),
+    /// A buffer of instance transforms.
+    InstanceTransforms,
+    /// Stages that deform positions.
+    Deformation,
+}
+
+/// Why something was left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Reason {
+    /// The technique makes hard shadows from the shadow map alone.
+    TechniqueIsShadowMap,
+    /// Smoothies are as wide as the light's size asks, and it has none.
+    LightHasNoSize,
+    /// The caller wants the list of silhouette edges and nothing else.
+    OnlySilhouettesWanted,
+    /// The caller looks the maps up in a shader of its own.
+    NoVisibilityTextureWanted,
+    /// No mesh with a face casts.
+    NothingCasts,
+    /// The device blends 32-bit floats, so one pass does the work of two.
+    DeviceBlendsFloats,
+    /// The device does not blend 32-bit floats.
+    DeviceBlendsNoFloats,
+    /// The settings ask for two passes.
+    TwoPassesAskedFor,
+    /// The caster is outside the light's frustum, smoothies included.
+    OutsideFrustum,
+    /// The caster's matrix is singular for this light.
+    SingularMatrix,
+    /// The mesh has no face.
+    NoFaces,
+    /// The mesh only receives.
+    ReceivesOnly,
+    /// Each caster has one matrix.
+    NothingIsInstanced,
+    /// Positions come as they are drawn.
+    NothingIsSkinned,
+}
+
+impl fmt::Display for Omitted {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = match self {
+            Self::DetectionStages => "detection stages",
+            Self::ExtrusionStages => "extrusion stages",
+            Self::SmoothiePasses => "smoothie passes",
+            Self::Pass(pass) => return formatter.pad(&format!("pass {}", pass.name())),
+            Self::CasterWork(name) => return formatter.pad(&format!("work of caster {name}")),
+            Self::Topology(name) => return formatter.pad(&format!("topology of {name}")),
+            Self::InstanceTransforms => "instance transforms",
+            Self::Deformation => "deformation",
+        };
+        formatter.pad(text)
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(match self {
+            Self::TechniqueIsShadowMap => "the technique makes hard shadows from the shadow map alone",
+            Self::LightHasNoSize => "smoothies are as wide as the light's size asks, and it has none",
+            Self::OnlySilhouettesWanted => "only the list of silhouette edges is wanted",
+            Self::NoVisibilityTextureWanted => "the maps are looked up in the caller's own shader",
+            Self::NothingCasts => "no mesh with a face casts",
+            Self::DeviceBlendsFloats => "the device blends 32-bit floats: one pass fills depth and alpha",
+            Self::DeviceBlendsNoFloats => "the device does not blend 32-bit floats: two passes fill depth and alpha",
+            Self::TwoPassesAskedFor => "the settings ask for two passes",
+            Self::OutsideFrustum => "outside the light's frustum, smoothies included",
+            Self::SingularMatrix => "its matrix is singular for this light",
+            Self::NoFaces => "it has no face",
+            Self::ReceivesOnly => "it only receives",
+            Self::NothingIsInstanced => "each caster has one matrix",
+            Self::NothingIsSkinned => "positions come as they are drawn",
+        })
+    }
+}

@@ -1,0 +1,26 @@
+//! The frame plan: everything that a frame of one light does and holds, decided before anything is created.
+
+mod buffer;
+mod capacity;
+mod decide;
+mod display;
+mod error;
+mod facts;
+mod left_out;
+mod pass;
+mod pipeline;
+mod plan;
+mod size_buffers;
+mod stage;
+mod texture;
+
+pub use buffer::{BufferKind, BufferPlan};
+pub use capacity::Capacity;
+pub use error::PlanError;
+pub use facts::{CasterFacts, DeviceFacts, MeshFacts, Outputs, SceneFacts};
+pub use left_out::{LeftOut, Omitted, Reason};
+pub use pass::Pass;
+pub use pipeline::{EntryPoints, PipelinePlan};
+pub use plan::{FramePlan, PlanInput};
+pub use stage::Stage;
+pub use texture::{TextureFormat, TextureKind, TexturePlan};

@@ -1,0 +1,63 @@
+//! The raster passes.
+
+use super::BufferKind::{self, *};
+use super::TextureKind;
+
+/// A raster pass, named for what it fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Pass {
+    /// Hardware depth and linear depth of every caster.
+    ShadowMap,
+    /// Nearest smoothie depth, by the hardware's depth test. The first of two.
+    SmoothieDepth,
+    /// Least smoothie alpha, in 16-bit floats. The second of two.
+    SmoothieAlpha,
+    /// Nearest smoothie depth and least alpha at once, where the device blends 32-bit floats.
+    SmoothieBuffer,
+    /// Visibility of each pixel of the caller's depth buffer, in a target of the caller's.
+    Visibility,
+}
+
+impl Pass {
+    /// All passes in the order in which a frame runs them.
+    pub const ALL: [Self; 5] =
+        [Self::ShadowMap, Self::SmoothieDepth, Self::SmoothieAlpha, Self::SmoothieBuffer, Self::Visibility];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ShadowMap => "shadow_map",
+            Self::SmoothieDepth => "smoothie_depth",
+            Self::SmoothieAlpha => "smoothie_alpha",
+            Self::SmoothieBuffer => "smoothie_buffer",
+            Self::Visibility => "visibility",
+        }
+    }
+
+    /// The buffers that its shaders bind, and the draw arguments.
+    pub const fn buffers(self) -> &'static [BufferKind] {
+        match self {
+            Self::ShadowMap => &[LightView, FaceItems, Casters, CasterLights, Faces, Positions],
+            Self::SmoothieDepth | Self::SmoothieAlpha | Self::SmoothieBuffer => &[LightView, Quads, Corners, DrawArgs],
+            Self::Visibility => &[ReceiverView],
+        }
+    }
+
+    /// The textures of the light view that it fills.
+    pub const fn fills(self) -> &'static [TextureKind] {
+        match self {
+            Self::ShadowMap => &[TextureKind::ShadowDepth, TextureKind::ShadowHardwareDepth],
+            Self::SmoothieDepth => &[TextureKind::SmoothieDepth],
+            Self::SmoothieAlpha => &[TextureKind::SmoothieAlpha],
+            Self::SmoothieBuffer => &[TextureKind::SmoothieBuffer],
+            Self::Visibility => &[],
+        }
+    }
+
+    /// Whether it draws quads and corners.
+    pub const fn draws_smoothies(self) -> bool {
+        matches!(self, Self::SmoothieDepth | Self::SmoothieAlpha | Self::SmoothieBuffer)
+    }
+}

@@ -1,0 +1,182 @@
+//! The frame plan and how it is made.
+
+use super::decide::{LeftOutList, casting, passes, smoothies_wanted, stages};
+use super::size_buffers::SceneSizes;
+use super::{
+    BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, MeshFacts, Omitted, Outputs, Pass, PipelinePlan, PlanError,
+    Reason, SceneFacts, Stage, TextureKind, TexturePlan,
+};
+use crate::{AlphaRemap, ShadowSettings, SmoothieSettings, View, ViewCounts};
+
+/// What a plan is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanInput<'a> {
+    /// What there is to shadow.
+    pub scene: &'a SceneFacts,
+    /// The light's view.
+    pub view: &'a View,
+    /// How its shadow is made.
+    pub settings: &'a ShadowSettings,
+    /// What the device can do.
+    pub device: &'a DeviceFacts,
+    /// What the caller wants.
+    pub outputs: Outputs,
+    /// Room that earlier frames are known to need; zeros for a first frame.
+    pub capacity: Capacity,
+}
+
+/// Everything that a frame of one light does and holds. Nothing else is created.
+///
+/// Buffers have room for all casters of the scene, so that a light that moves creates nothing; `counts` and
+/// `casting` are those of this frame.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FramePlan {
+    /// What the caller wants.
+    pub outputs: Outputs,
+    /// How the shadow is made.
+    pub settings: ShadowSettings,
+    /// Compute stages in their order.
+    pub stages: Vec<Stage>,
+    /// Raster passes in their order.
+    pub passes: Vec<Pass>,
+    /// Pipelines in the order of what runs them.
+    pub pipelines: Vec<PipelinePlan>,
+    /// Buffers.
+    pub buffers: Vec<BufferPlan>,
+    /// Textures.
+    pub textures: Vec<TexturePlan>,
+    /// Indices of the casters that have work items in this frame, ascending.
+    pub casting: Vec<usize>,
+    /// Casters without a place for the light: their matrix is singular.
+    pub singular_casters: u32,
+    /// Work items of this frame, and the room in each list.
+    pub counts: ViewCounts,
+    /// What was left out, and why.
+    pub left_out: Vec<LeftOut>,
+}
+
+impl FramePlan {
+    /// Decides what a frame does.
+    ///
+    /// # Errors
+    ///
+    /// The settings are out of range, a caster names no mesh, or the device can't hold what the frame needs.
+    pub fn new(input: &PlanInput<'_>) -> Result<Self, PlanError> {
+        let PlanInput { scene, settings, device, outputs, .. } = *input;
+        settings.validate()?;
+        for (caster, facts) in scene.casters.iter().enumerate() {
+            if facts.mesh >= scene.meshes.len() {
+                return Err(PlanError::UnknownMesh { caster, mesh: facts.mesh, meshes: scene.meshes.len() });
+            }
+        }
+        let mut left_out = LeftOutList::default();
+
+        // Decide what runs.
+        let smoothies = smoothies_wanted(input, &mut left_out);
+        let stages = stages(input, smoothies.is_some(), &mut left_out);
+        let passes = passes(input, smoothies.as_ref(), &mut left_out);
+        let limit = device.max_texture_dimension_2d;
+        if !passes.is_empty() && settings.map_size > limit {
+            return Err(PlanError::MapTooLarge { map_size: settings.map_size, limit });
+        }
+
+        // Decide who casts in this frame.
+        let casting = casting(input, smoothies.as_ref(), &mut left_out);
+        left_out.all(scene.receivers.iter().map(|name| Omitted::Topology(name.clone())), Reason::ReceivesOnly);
+        left_out.add(Omitted::InstanceTransforms, Reason::NothingIsInstanced);
+        left_out.add(Omitted::Deformation, Reason::NothingIsSkinned);
+
+        // List what that needs.
+        let cast_meshes = scene.casters.iter().map(|caster| &scene.meshes[caster.mesh]);
+        let sizes = SceneSizes::new(scene, cast_meshes, input.capacity);
+        let buffers = BufferKind::ALL
+            .into_iter()
+            .filter(|kind| is_bound(*kind, &stages, &passes))
+            .map(|kind| sizes.buffer(kind, device))
+            .collect::<Result<Vec<_>, _>>()?;
+        let textures = passes.iter().flat_map(|pass| pass.fills());
+        let textures = textures.map(|kind| TexturePlan::new(*kind, settings.map_size)).collect();
+        let remap_alpha = match smoothies {
+            Some(SmoothieSettings { remap: AlphaRemap::Off, .. }) => 0.0,
+            _ => 1.0,
+        };
+        let of_stages = stages.iter().map(|stage| PipelinePlan::of_stage(*stage));
+        let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, remap_alpha));
+        let pipelines = of_stages.chain(of_passes).collect();
+
+        let room = |kind| buffers.iter().find(|buffer| buffer.kind == kind).map_or(0, |buffer| buffer.items as u32);
+        let work = |blocks: fn(&MeshFacts) -> u64| {
+            casting.iter().map(|caster| blocks(&scene.meshes[scene.casters[*caster].mesh])).sum::<u64>() as u32
+        };
+        let counts = ViewCounts {
+            face_items: work(MeshFacts::face_blocks),
+            edge_items: if stages.is_empty() { 0 } else { work(MeshFacts::edge_blocks) },
+            undecided: room(BufferKind::Undecided),
+            silhouettes: room(BufferKind::Silhouettes),
+            quads: room(BufferKind::Quads),
+            corners: room(BufferKind::Corners),
+        };
+        let singular_casters = left_out.count(Reason::SingularMatrix);
+        let left_out = left_out.0;
+        Ok(Self {
+            outputs,
+            settings: *settings,
+            stages,
+            passes,
+            pipelines,
+            buffers,
+            textures,
+            casting,
+            singular_casters,
+            counts,
+            left_out,
+        })
+    }
+
+    /// Whether the frame runs a stage.
+    pub fn has_stage(&self, stage: Stage) -> bool {
+        self.stages.contains(&stage)
+    }
+
+    /// Whether the frame runs a pass.
+    pub fn has_pass(&self, pass: Pass) -> bool {
+        self.passes.contains(&pass)
+    }
+
+    /// A buffer, where the frame needs it.
+    pub fn buffer(&self, kind: BufferKind) -> Option<&BufferPlan> {
+        self.buffers.iter().find(|buffer| buffer.kind == kind)
+    }
+
+    /// A texture, where the frame needs it.
+    pub fn texture(&self, kind: TextureKind) -> Option<&TexturePlan> {
+        self.textures.iter().find(|texture| texture.kind == kind)
+    }
+
+    /// Whether a caster has work items in this frame.
+    pub fn casts(&self, caster: usize) -> bool {
+        self.casting.binary_search(&caster).is_ok()
+    }
+
+    /// Room for quads and corners.
+    pub fn capacity(&self) -> Capacity {
+        Capacity { quads: self.counts.quads, corners: self.counts.corners }
+    }
+
+    /// Why something was left out; `None` where it was not.
+    pub fn reason(&self, what: &Omitted) -> Option<Reason> {
+        self.left_out.iter().find(|left_out| left_out.what == *what).map(|left_out| left_out.reason)
+    }
+}
+
+/// Whether a stage or a pass binds a buffer. Receivers look the maps up through the receiver view.
+fn is_bound(kind: BufferKind, stages: &[Stage], passes: &[Pass]) -> bool {
+    let by_receivers = kind == BufferKind::ReceiverView && !passes.is_empty();
+    by_receivers
+        || stages.iter().any(|stage| stage.buffers().contains(&kind))
+        || passes.iter().any(|pass| pass.buffers().contains(&kind))
+}
+
+#[cfg(test)]
+mod tests;

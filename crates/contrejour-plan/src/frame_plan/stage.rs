@@ -1,0 +1,114 @@
+//! The compute stages.
+
+use super::BufferKind::{self, *};
+
+/// A compute stage. Its [name](Self::name) is its shader file, its entry point, its CPU twin and its test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Stage {
+    /// One lit bit for each face, by floats where their bound allows; the others are listed.
+    ClassifyFaces,
+    /// From undecided faces to the dispatches of the two exact tiers.
+    WriteRefineArgs,
+    /// Undecided faces by short integers.
+    RefineFaces,
+    /// Undecided faces by full integers.
+    ResolveFaces,
+    /// From lit bits to the list of silhouette edges.
+    DetectSilhouette,
+    /// From silhouette edges to the dispatches that extrude them.
+    WriteExtrudeArgs,
+    /// From outline edges to quads on the image plane.
+    ExtrudeEdges,
+    /// From ends of outline edges to the wedges between quads.
+    BuildCorners,
+    /// From quads and corners to indirect draws.
+    WriteDrawArgs,
+}
+
+impl Stage {
+    /// All stages in the order in which a frame runs them.
+    pub const ALL: [Self; 9] = [
+        Self::ClassifyFaces,
+        Self::WriteRefineArgs,
+        Self::RefineFaces,
+        Self::ResolveFaces,
+        Self::DetectSilhouette,
+        Self::WriteExtrudeArgs,
+        Self::ExtrudeEdges,
+        Self::BuildCorners,
+        Self::WriteDrawArgs,
+    ];
+
+    /// The stages that end with the list of silhouette edges; the others extrude them.
+    pub const DETECTION: &[Self] = Self::ALL.split_at(5).0;
+
+    /// Its name: shader file, entry point, CPU twin and test.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ClassifyFaces => "classify_faces",
+            Self::WriteRefineArgs => "write_refine_args",
+            Self::RefineFaces => "refine_faces",
+            Self::ResolveFaces => "resolve_faces",
+            Self::DetectSilhouette => "detect_silhouette",
+            Self::WriteExtrudeArgs => "write_extrude_args",
+            Self::ExtrudeEdges => "extrude_edges",
+            Self::BuildCorners => "build_corners",
+            Self::WriteDrawArgs => "write_draw_args",
+        }
+    }
+
+    /// The buffers that its shader binds, in the order of their bindings; the first is a uniform.
+    pub const fn buffers(self) -> &'static [BufferKind] {
+        match self {
+            Self::ClassifyFaces => {
+                &[LightView, FaceItems, Casters, CasterLights, Faces, Positions, Lit, Undecided, Counters]
+            }
+            Self::WriteRefineArgs => &[LightView, Counters, RefineArgs],
+            Self::RefineFaces | Self::ResolveFaces => {
+                &[LightView, Undecided, Counters, Casters, CasterLights, Faces, Positions, Lit]
+            }
+            Self::DetectSilhouette => {
+                &[LightView, EdgeItems, Casters, Edges, Incidences, Lit, Silhouettes, OutlineSides, Counters]
+            }
+            Self::WriteExtrudeArgs => &[LightView, Counters, ExtrudeArgs],
+            Self::ExtrudeEdges => &[LightView, Silhouettes, Casters, CasterLights, Edges, Positions, Quads, Counters],
+            Self::BuildCorners => {
+                &[LightView, Quads, Casters, CasterLights, Positions, OutlineSides, VertexEdges, Corners, Counters]
+            }
+            Self::WriteDrawArgs => &[LightView, Counters, DrawArgs],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// WebGPU's default limit of storage buffers in a shader stage.
+    const MAX_STORAGE_BUFFERS: usize = 8;
+
+    #[test]
+    fn bindings_fit_the_default_limits() {
+        for stage in Stage::ALL {
+            let (uniform, storage) = stage.buffers().split_first().expect("never empty");
+            assert_eq!(*uniform, LightView);
+            assert!(storage.len() <= MAX_STORAGE_BUFFERS, "{}", stage.name());
+            let mut distinct = storage.to_vec();
+            distinct.sort();
+            distinct.dedup();
+            assert_eq!(distinct.len(), storage.len(), "{}", stage.name());
+        }
+    }
+
+    #[test]
+    fn detection_ends_with_the_list() {
+        assert_eq!(Stage::DETECTION.last(), Some(&Stage::DetectSilhouette));
+    }
+
+    #[test]
+    fn stages_are_in_order() {
+        assert!(Stage::ALL.is_sorted());
+    }
+}
