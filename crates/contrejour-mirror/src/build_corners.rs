@@ -8,14 +8,13 @@ use contrejour_layout::{
     CORNER_CAP, CORNER_WEDGE, Caster, CasterLight, Corner, Counters, LightView, MAX_SEARCHED_VALENCE,
     OUTLINE_BLOCKER_RIGHT, OUTLINE_NONE, OWN_END_HIGH, OWN_END_LOW, Quad,
 };
-use glam::{Vec2, Vec4};
+use glam::Vec2;
 
 use crate::caster_position::scaled_position;
 use crate::image_plane::{clip_of_delta, clip_of_position, clockwise, counter_clockwise, halfway, image_direction};
 
-/// Two directions whose pseudo-angle differs by less than this can't be told apart.
+/// Two directions whose cosine is nearer to 1 than this can't be told apart.
 const COINCIDENT: f32 = 1e-4;
-const FULL_TURN: f32 = 4.0;
 const HALF_TURN: f32 = 2.0;
 
 /// The stage `build_corners`: ends of quads to wedges and caps.
@@ -66,7 +65,7 @@ impl BuildCorners<'_> {
     }
 
     fn corner_at(&self, quad: &Quad, is_high: bool) -> Option<Corner> {
-        let edge_end = self.end_of_quad(quad, is_high);
+        let edge_end = end_of_quad(quad, is_high);
         let wedge = match self.find_neighbour(&edge_end, quad) {
             Some(neighbour) => wedge_between(&edge_end, &neighbour)?,
             None => cap(&edge_end),
@@ -90,7 +89,6 @@ impl BuildCorners<'_> {
 /// One end of an outline edge, on the image plane.
 struct EdgeEnd {
     vertex: u32,
-    clip: Vec4,
     /// Unit direction from the vertex along the edge.
     direction: Vec2,
     /// +1 where the outside lies counter-clockwise of the direction, -1 where clockwise.
@@ -113,22 +111,9 @@ struct Wedge {
 }
 
 impl BuildCorners<'_> {
-    fn end_of_quad(&self, quad: &Quad, is_high: bool) -> EdgeEnd {
-        let vertex = if is_high { quad.high_vertex } else { quad.low_vertex };
-        let caster = &self.casters[quad.caster as usize];
-        let light = &self.caster_lights[quad.caster as usize];
-        let clip = clip_of_position(light, scaled_position(caster, self.positions, vertex));
-        let turn = outside_turn(quad.side, !is_high);
-        // From the quad, so that it is never without a direction and its corners fit it to the bit.
-        let direction = turn * clockwise(Vec2::from_array(quad.outward));
-        EdgeEnd { vertex, clip, direction, turn }
-    }
-
     /// The neighbour of an end; none where it can't be told apart.
     fn find_neighbour(&self, edge_end: &EdgeEnd, quad: &Quad) -> Option<Neighbour> {
         let caster = &self.casters[quad.caster as usize];
-        let light = &self.caster_lights[quad.caster as usize];
-        let position = scaled_position(caster, self.positions, edge_end.vertex);
         let offset_word = (caster.first_vertex_offset_word + edge_end.vertex) as usize;
         let (first, last) = (self.vertex_edges[offset_word], self.vertex_edges[offset_word + 1]);
         if last - first > MAX_SEARCHED_VALENCE {
@@ -136,6 +121,7 @@ impl BuildCorners<'_> {
         }
 
         let mut nearest: Option<Neighbour> = None;
+        let mut second: Option<Neighbour> = None;
         for i in first..last {
             let word = (caster.first_vertex_edge_word + 2 * i) as usize;
             let (edge_id, other_vertex) = (self.vertex_edges[word], self.vertex_edges[word + 1]);
@@ -143,18 +129,33 @@ impl BuildCorners<'_> {
             if edge_id == quad.edge_id || side == OUTLINE_NONE {
                 continue;
             }
-            let delta = clip_of_delta(light, scaled_position(caster, self.positions, other_vertex) - position);
-            let direction = image_direction(edge_end.clip, delta)?;
-            let pseudo_angle = turned(edge_end, direction);
-            if !(COINCIDENT..=FULL_TURN - COINCIDENT).contains(&pseudo_angle) {
+            let direction = self.direction_to(edge_end, other_vertex, quad.caster)?;
+            if coincide(edge_end.direction, direction) {
                 return None;
             }
+            let pseudo_angle = turned(edge_end, direction);
+            let turn = outside_turn(side, edge_end.vertex < other_vertex);
+            let neighbour = Neighbour { direction, turn, pseudo_angle };
             if nearest.as_ref().is_none_or(|nearest| pseudo_angle < nearest.pseudo_angle) {
-                let turn = outside_turn(side, edge_end.vertex < other_vertex);
-                nearest = Some(Neighbour { direction, turn, pseudo_angle });
+                second = nearest.replace(neighbour);
+            } else if second.as_ref().is_none_or(|second| pseudo_angle < second.pseudo_angle) {
+                second = Some(neighbour);
             }
         }
-        nearest.filter(|neighbour| neighbour.turn != edge_end.turn)
+        let nearest = nearest.filter(|nearest| nearest.turn != edge_end.turn)?;
+        // The neighbour closes its side alone when it coincides with another; then this end must do so too.
+        second.is_none_or(|second| !coincide(nearest.direction, second.direction)).then_some(nearest)
+    }
+
+    /// Direction of an edge from an end's vertex, found from the edge's lower vertex as its own quad finds it, so that
+    /// all ends agree on it to the bit.
+    fn direction_to(&self, edge_end: &EdgeEnd, other_vertex: u32, caster_id: u32) -> Option<Vec2> {
+        let caster = &self.casters[caster_id as usize];
+        let light = &self.caster_lights[caster_id as usize];
+        let low = scaled_position(caster, self.positions, edge_end.vertex.min(other_vertex));
+        let high = scaled_position(caster, self.positions, edge_end.vertex.max(other_vertex));
+        let direction = image_direction(clip_of_position(light, low), clip_of_delta(light, high - low))?;
+        Some(if edge_end.vertex < other_vertex { direction } else { -direction })
     }
 
     fn side_of_edge(&self, caster: &Caster, edge_id: u32) -> u32 {
@@ -162,9 +163,20 @@ impl BuildCorners<'_> {
     }
 }
 
+fn end_of_quad(quad: &Quad, is_high: bool) -> EdgeEnd {
+    let vertex = if is_high { quad.high_vertex } else { quad.low_vertex };
+    let turn = outside_turn(quad.side, !is_high);
+    let direction = turn * clockwise(Vec2::from_array(quad.outward));
+    EdgeEnd { vertex, direction, turn }
+}
+
 /// The outside lies on the right of an edge whose blocker is on its left. Seen from its high end it runs the other way.
 fn outside_turn(side: u32, from_low: bool) -> f32 {
     if (side == OUTLINE_BLOCKER_RIGHT) == from_low { 1.0 } else { -1.0 }
+}
+
+fn coincide(direction: Vec2, other: Vec2) -> bool {
+    direction.dot(other) > 1.0 - COINCIDENT
 }
 
 /// How far one turns through the outside from the edge to a direction.
