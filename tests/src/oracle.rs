@@ -1,0 +1,321 @@
+//! The definition of facing and silhouettes, in exact arithmetic and without any cleverness.
+//!
+//! Shares no code with the library: `robust` decides for points, big integers for directions; welding, partners and
+//! multiplicities are brute force over ordered maps.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use num_bigint::{BigInt, Sign};
+use robust::Coord3D;
+
+/// Whether a face is lit by the homogeneous light `(L, w)`; `w` is 1 for a point and 0 for a direction. The mesh is
+/// mirrored by its instance's matrix when that matrix has a negative determinant.
+///
+/// # Panics
+///
+/// When a number is not finite or `w` is neither 0 nor 1.
+pub fn lit(a: [f32; 3], b: [f32; 3], c: [f32; 3], light: [f32; 4], mirrored: bool) -> bool {
+    let [x, y, z, w] = light;
+    assert!(w == 0.0 || w == 1.0, "w is {w}");
+    let determinant = if w == 1.0 {
+        let coord = |[x, y, z]: [f32; 3]| Coord3D { x, y, z };
+        // orient3d is det(a - d, b - d, c - d) = -det(b - a, c - a, d - a).
+        -sign(robust::orient3d(coord(a), coord(b), coord(c), coord([x, y, z])))
+    } else {
+        direction_determinant(a, b, c, [x, y, z])
+    };
+    if mirrored { determinant < 0 } else { determinant > 0 }
+}
+
+/// An edge of the silhouette.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct OracleEdge {
+    /// The lower vertex.
+    pub low: u32,
+    /// The higher vertex.
+    pub high: u32,
+    /// Faces on its left as seen from the light, looking from `low` to `high`.
+    pub left: i32,
+    /// Faces on its right.
+    pub right: i32,
+}
+
+impl OracleEdge {
+    /// The signed multiplicity: not zero in a silhouette.
+    pub fn multiplicity(&self) -> i32 {
+        self.left - self.right
+    }
+}
+
+/// The silhouette of triangles as their file brings them, by ascending (low, high) vertex. Of source vertices with the
+/// same position the lowest index stands for all.
+///
+/// # Panics
+///
+/// As [`lit`].
+pub fn silhouette(positions: &[[f32; 3]], triangles: &[[u32; 3]], light: [f32; 4], mirrored: bool) -> Vec<OracleEdge> {
+    let topology = OracleTopology::new(positions, triangles);
+    topology.silhouette(light, mirrored)
+}
+
+/// What [`silhouette`] knows of a mesh before it knows the light; for many lights of one mesh.
+#[derive(Debug)]
+pub struct OracleTopology {
+    positions: Vec<[f32; 3]>,
+    faces: Vec<[u32; 3]>,
+    /// For each edge its faces, and whether each runs from the lower to the higher vertex.
+    edges: BTreeMap<(u32, u32), Vec<(usize, bool)>>,
+    /// Whose sign each face without area takes, and whether negated; `None`: it is unlit.
+    partners: BTreeMap<usize, Option<(usize, bool)>>,
+}
+
+impl OracleTopology {
+    /// Welds, and finds the faces at every edge and the partner of every face without area.
+    pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
+        let faces = weld(positions, triangles);
+        let mut edges: BTreeMap<(u32, u32), Vec<(usize, bool)>> = BTreeMap::new();
+        for (face, &[a, b, c]) in faces.iter().enumerate() {
+            if a == b || b == c || c == a {
+                continue;
+            }
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                edges.entry((from.min(to), from.max(to))).or_default().push((face, from < to));
+            }
+        }
+        let mut topology = Self { positions: positions.to_vec(), faces, edges, partners: BTreeMap::new() };
+        let without_area: Vec<usize> =
+            (0..topology.faces.len()).filter(|&face| topology.is_without_area(face)).collect();
+        topology.partners = without_area.iter().map(|&face| (face, topology.partner(face))).collect();
+        topology
+    }
+
+    /// The silhouette, by ascending (low, high) vertex.
+    ///
+    /// # Panics
+    ///
+    /// As [`lit`].
+    pub fn silhouette(&self, light: [f32; 4], mirrored: bool) -> Vec<OracleEdge> {
+        let own_lit = self.lit_faces(light, mirrored);
+        let is_lit = |face: usize| match self.partners.get(&face) {
+            None => own_lit[face],
+            Some(None) => false,
+            Some(&Some((other, negated))) => own_lit[other] != negated,
+        };
+        let mut silhouette = Vec::new();
+        for (&(low, high), faces) in &self.edges {
+            let left = faces.iter().filter(|&&(face, along)| is_lit(face) == along).count() as i32;
+            let edge = OracleEdge { low, high, left, right: faces.len() as i32 - left };
+            if edge.multiplicity() != 0 {
+                silhouette.push(edge);
+            }
+        }
+        silhouette
+    }
+
+    /// Whether each face is lit, by its own corners alone.
+    ///
+    /// # Panics
+    ///
+    /// As [`lit`].
+    pub fn lit_faces(&self, light: [f32; 4], mirrored: bool) -> Vec<bool> {
+        let at = |vertex: u32| self.positions[vertex as usize];
+        self.faces.iter().map(|&[a, b, c]| lit(at(a), at(b), at(c), light, mirrored)).collect()
+    }
+
+    fn is_without_area(&self, face: usize) -> bool {
+        let [a, b, c] = self.faces[face];
+        let [a_position, b_position, c_position] = self.corners(face);
+        a != b && b != c && c != a && is_collinear(a_position, b_position, c_position)
+    }
+
+    fn corners(&self, face: usize) -> [[f32; 3]; 3] {
+        self.faces[face].map(|vertex| self.positions[vertex as usize])
+    }
+
+    /// Follows the chain of faces without area across their longest edges.
+    fn partner(&self, face: usize) -> Option<(usize, bool)> {
+        let mut visited = BTreeSet::new();
+        let mut current = face;
+        let mut negated = false;
+        while self.is_without_area(current) {
+            if !visited.insert(current) {
+                return None;
+            }
+            let (across, is_negated) = self.across_longest_edge(current)?;
+            current = across;
+            negated ^= is_negated;
+        }
+        Some((current, negated))
+    }
+
+    /// The one face across the longest edge of a face without area, and whether the edge is no silhouette when their
+    /// signs differ.
+    fn across_longest_edge(&self, face: usize) -> Option<(usize, bool)> {
+        // Points on a line have the order of their coordinates.
+        let mut corners = self.faces[face];
+        let key = |vertex: &u32| self.positions[*vertex as usize];
+        corners.sort_by(|v, w| key(v).partial_cmp(&key(w)).expect("coordinates are finite"));
+        let [first, _, last] = corners;
+        match self.edges[&(first.min(last), first.max(last))][..] {
+            [(one, along_one), (other, along_other)] => {
+                // m = s o + s' o' = 0: consistently wound faces (o != o') need the same sign.
+                Some((if one == face { other } else { one }, along_one == along_other))
+            }
+            _ => None,
+        }
+    }
+}
+
+fn weld(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    // Adding zero turns -0.0 into 0.0 and changes nothing else.
+    let key = |vertex: usize| positions[vertex].map(|coordinate| (coordinate + 0.0).to_bits());
+    let mut lowest = BTreeMap::new();
+    for vertex in 0..positions.len() {
+        lowest.entry(key(vertex)).or_insert(vertex as u32);
+    }
+    triangles.iter().map(|triangle| triangle.map(|vertex| lowest[&key(vertex as usize)])).collect()
+}
+
+fn sign(value: f64) -> i32 {
+    i32::from(value > 0.0) - i32::from(value < 0.0)
+}
+
+/// The sign of `det(b - a, c - a, direction)`.
+fn direction_determinant(a: [f32; 3], b: [f32; 3], c: [f32; 3], direction: [f32; 3]) -> i32 {
+    let [x, y, z] = cross(&difference(b, a), &difference(c, a));
+    let [dx, dy, dz] = direction.map(integer);
+    match (x * dx + y * dy + z * dz).sign() {
+        Sign::Minus => -1,
+        Sign::NoSign => 0,
+        Sign::Plus => 1,
+    }
+}
+
+fn is_collinear(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> bool {
+    cross(&difference(b, a), &difference(c, a)).iter().all(|component| component.sign() == Sign::NoSign)
+}
+
+fn difference(p: [f32; 3], q: [f32; 3]) -> [BigInt; 3] {
+    std::array::from_fn(|axis| integer(p[axis]) - integer(q[axis]))
+}
+
+fn cross(p: &[BigInt; 3], q: &[BigInt; 3]) -> [BigInt; 3] {
+    [&p[1] * &q[2] - &p[2] * &q[1], &p[2] * &q[0] - &p[0] * &q[2], &p[0] * &q[1] - &p[1] * &q[0]]
+}
+
+/// A finite `f32` times 2^149.
+fn integer(value: f32) -> BigInt {
+    assert!(value.is_finite(), "{value} has no place on a grid");
+    // An f32 times 2^149 is an integer below 2^277, which f64 holds exactly.
+    let scaled = f64::from(value) * 149_f64.exp2();
+    let bits = scaled.abs().to_bits();
+    let exponent = (bits >> 52) as i64 - 1075;
+    if scaled == 0.0 {
+        return BigInt::ZERO;
+    }
+    let mantissa = BigInt::from(bits & ((1 << 52) - 1) | 1 << 52);
+    let magnitude = if exponent < 0 { mantissa >> -exponent } else { mantissa << exponent };
+    if scaled < 0.0 { -magnitude } else { magnitude }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const A: [f32; 3] = [0.0, 0.0, 0.0];
+    const B: [f32; 3] = [1.0, 0.0, 0.0];
+    const C: [f32; 3] = [0.0, 1.0, 0.0];
+
+    #[test]
+    fn counter_clockwise_faces_are_lit_from_their_front() {
+        for w in [0.0, 1.0] {
+            assert!(lit(A, B, C, [0.0, 0.0, 1.0, w], false));
+            assert!(!lit(A, B, C, [0.0, 0.0, -1.0, w], false));
+            assert!(!lit(A, B, C, [0.0, 0.0, 1.0, w], true));
+            assert!(lit(A, B, C, [0.0, 0.0, -1.0, w], true));
+        }
+    }
+
+    #[test]
+    fn exactly_edge_on_is_unlit() {
+        for w in [0.0, 1.0] {
+            for mirrored in [false, true] {
+                assert!(!lit(A, B, C, [1.0, 1.0, 0.0, w], mirrored));
+            }
+        }
+    }
+
+    #[test]
+    fn the_smallest_number_counts() {
+        let tiny = f32::from_bits(1);
+        for w in [0.0, 1.0] {
+            assert!(lit(A, B, C, [f32::MAX, f32::MAX, tiny, w], false));
+            assert!(!lit(A, B, C, [f32::MAX, f32::MAX, -tiny, w], false));
+        }
+    }
+
+    #[test]
+    fn robust_and_big_integers_agree_where_both_apply() {
+        // A direction L is the point a + L where that sum is exact.
+        let corners = [[1.0, 2.0, 3.0], [1.5, -2.0, 3.25], [-7.0, 2.0, 0.125]];
+        for direction in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.5], [3.0, 1.0, -2.0], [-6.5, 0.0, 0.25]] {
+            let [a, b, c] = corners;
+            let point = [a[0] + direction[0], a[1] + direction[1], a[2] + direction[2], 1.0];
+            let [x, y, z] = direction;
+            assert_eq!(lit(a, b, c, point, false), lit(a, b, c, [x, y, z, 0.0], false));
+        }
+    }
+
+    #[test]
+    fn integers_are_exact() {
+        assert_eq!(integer(f32::from_bits(1)), BigInt::from(1));
+        assert_eq!(integer(-f32::from_bits(3)), BigInt::from(-3));
+        assert_eq!(integer(1.0), BigInt::from(1) << 149);
+        assert_eq!(integer(f32::MAX), BigInt::from((1 << 24) - 1) << 253);
+        assert_eq!(integer(-0.0), BigInt::ZERO);
+    }
+
+    #[test]
+    fn a_lone_triangle_is_its_own_silhouette() {
+        let edges = silhouette(&[A, B, C], &[[0, 1, 2]], [0.0, 0.0, 1.0, 0.0], false);
+        let signed: Vec<_> = edges.iter().map(|edge| (edge.low, edge.high, edge.multiplicity())).collect();
+        assert_eq!(signed, [(0, 1, 1), (0, 2, -1), (1, 2, 1)]);
+    }
+
+    #[test]
+    fn a_seam_in_the_vertices_makes_no_border() {
+        // 0,1,2 and 3,4,5 share the edge 1-2, once with the other zero.
+        let positions = [A, B, C, [1.0, -0.0, 0.0], [1.0, 1.0, 0.0], C];
+        let edges = silhouette(&positions, &[[0, 1, 2], [3, 4, 5]], [0.0, 0.0, 1.0, 0.0], false);
+        assert_eq!(edges.len(), 4);
+        assert!(edges.iter().all(|edge| (edge.low, edge.high) != (1, 2)));
+    }
+
+    /// ```text
+    ///      2
+    ///     / \       0-3-1 is a face without area below 0-1-2.
+    ///    /   \
+    ///   0--3--1
+    /// ```
+    #[test]
+    fn a_face_without_area_takes_the_sign_of_its_partner() {
+        let positions = [A, [2.0, 0.0, 0.0], C, [1.0, 0.0, 0.0]];
+        let edges = silhouette(&positions, &[[0, 1, 2], [0, 3, 1]], [0.0, 0.0, 1.0, 0.0], false);
+        let signed: Vec<_> = edges.iter().map(|edge| (edge.low, edge.high, edge.multiplicity())).collect();
+        assert_eq!(signed, [(0, 2, -1), (0, 3, 1), (1, 2, 1), (1, 3, -1)]);
+    }
+
+    #[test]
+    fn a_face_that_names_a_vertex_twice_cancels_itself() {
+        assert_eq!(silhouette(&[A, B, C], &[[0, 1, 1], [2, 2, 2]], [0.0, 0.0, 1.0, 0.0], false), []);
+    }
+
+    #[test]
+    fn three_faces_at_an_edge_all_count() {
+        let positions = [A, B, C, [0.0, -1.0, 0.0], [0.0, 0.5, 1.0]];
+        let faces = [[0, 1, 2], [1, 0, 3], [0, 1, 4]];
+        let edges = silhouette(&positions, &faces, [0.0, 0.0, 1.0, 0.0], false);
+        let spine = edges.iter().find(|edge| (edge.low, edge.high) == (0, 1)).expect("an odd edge is always in");
+        assert_eq!((spine.left, spine.right), (2, 1));
+    }
+}
