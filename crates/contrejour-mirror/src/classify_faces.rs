@@ -4,8 +4,7 @@
 //! may round otherwise and list a few other faces; what both decide is equal.
 
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Counters, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView,
-    WorkItem,
+    BLOCK_SIZE, Caster, CasterLight, Counters, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView, WorkItem,
 };
 
 use crate::facing::{Bits3, FacingBits, NEAR_SPAN, set_lit};
@@ -49,10 +48,7 @@ impl ClassifyFaces<'_> {
         let first_face = item.block * BLOCK_SIZE;
         for face_id in first_face..caster.face_count.min(first_face + BLOCK_SIZE) {
             let face = self.faces[(caster.first_face + face_id) as usize];
-            let face_ref = FaceRef {
-                caster: item.caster,
-                face_id,
-            };
+            let face_ref = FaceRef { caster: item.caster, face_id };
             match classify(caster, caster_light, face, self.positions) {
                 Verdict::Lit => set_lit(self.lit, caster, face_ref),
                 Verdict::Unlit => {}
@@ -84,12 +80,7 @@ enum Verdict {
     UndecidedFar,
 }
 
-fn classify(
-    caster: &Caster,
-    caster_light: &CasterLight,
-    face: Face,
-    positions: &[u32],
-) -> Verdict {
+fn classify(caster: &Caster, caster_light: &CasterLight, face: Face, positions: &[u32]) -> Verdict {
     let names_a_vertex_twice = face.a == face.b || face.b == face.c || face.c == face.a;
     if caster_light.casts == 0 || names_a_vertex_twice {
         return Verdict::Unlit;
@@ -99,9 +90,7 @@ fn classify(
         Some(true) => Verdict::Lit,
         Some(false) => Verdict::Unlit,
         None if !may_have_volume(&bits) => Verdict::Unlit,
-        None if bits.edge_span().length().max(bits.light_span().length()) <= NEAR_SPAN => {
-            Verdict::UndecidedNear
-        }
+        None if bits.edge_span().length().max(bits.light_span().length()) <= NEAR_SPAN => Verdict::UndecidedNear,
         None => Verdict::UndecidedFar,
     }
 }
@@ -134,8 +123,7 @@ fn is_lit_by_floats(bits: &FacingBits) -> Option<bool> {
         size += p[x].abs() * (first.abs() + second.abs());
     }
     let edge_limit = power_above(edge_exponent);
-    let bound =
-        ROUNDING * size + UNDERFLOW * edge_limit * edge_limit * power_above(light_exponent);
+    let bound = ROUNDING * size + UNDERFLOW * edge_limit * edge_limit * power_above(light_exponent);
     (determinant.abs() > bound).then_some(determinant > 0.0)
 }
 
@@ -159,9 +147,7 @@ fn may_have_volume(bits: &FacingBits) -> bool {
     let p = differs(bits.b, bits.a);
     let q = differs(bits.c, bits.a);
     let r = differs(bits.light, bits.light_origin);
-    [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
-        .into_iter()
-        .any(|(x, y, z)| p[x] && (q[y] && r[z] || q[z] && r[y]))
+    [(0, 1, 2), (1, 2, 0), (2, 0, 1)].into_iter().any(|(x, y, z)| p[x] && (q[y] && r[z] || q[z] && r[y]))
 }
 
 fn differs(x: Bits3, y: Bits3) -> [bool; 3] {

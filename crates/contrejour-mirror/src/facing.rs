@@ -21,15 +21,9 @@ pub(crate) struct FacingBits {
 
 impl FacingBits {
     /// Reads a face. A mirrored caster exchanges b and c, which changes the sign of the determinant and nothing else.
-    pub fn read(
-        caster: &Caster,
-        caster_light: &CasterLight,
-        face: Face,
-        positions: &[u32],
-    ) -> Self {
+    pub fn read(caster: &Caster, caster_light: &CasterLight, face: Face, positions: &[u32]) -> Self {
         let position = |vertex: u32| {
-            let word =
-                (caster.first_position_word + vertex * caster.position_stride_words) as usize;
+            let word = (caster.first_position_word + vertex * caster.position_stride_words) as usize;
             [positions[word], positions[word + 1], positions[word + 2]]
         };
         let a = position(face.a);
@@ -39,13 +33,7 @@ impl FacingBits {
         };
         let [x, y, z, w] = caster_light.light_object;
         let is_point = w << 1 != 0;
-        Self {
-            a,
-            b,
-            c,
-            light: [x, y, z],
-            light_origin: if is_point { a } else { [0; 3] },
-        }
+        Self { a, b, c, light: [x, y, z], light_origin: if is_point { a } else { [0; 3] } }
     }
 
     /// The edges `b - a` and `c - a` share one grid.
@@ -74,12 +62,8 @@ impl GridSpan {
         for &bits in coordinates {
             let mantissa = mantissa(bits);
             if mantissa != 0 {
-                span.begin = span
-                    .begin
-                    .min(grid_shift(bits) + mantissa.trailing_zeros());
-                span.end = span
-                    .end
-                    .max(grid_shift(bits) + 32 - mantissa.leading_zeros());
+                span.begin = span.begin.min(grid_shift(bits) + mantissa.trailing_zeros());
+                span.end = span.end.max(grid_shift(bits) + 32 - mantissa.leading_zeros());
             }
         }
         span

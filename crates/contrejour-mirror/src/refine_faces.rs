@@ -27,10 +27,7 @@ pub struct RefineFaces<'a> {
 impl RefineFaces<'_> {
     /// Does what the dispatch does.
     pub fn run(self) {
-        let count = self
-            .counters
-            .undecided_near
-            .min(self.view.undecided_capacity);
+        let count = self.counters.undecided_near.min(self.view.undecided_capacity);
         for face_ref in &self.undecided[..count as usize] {
             let caster = &self.casters[face_ref.caster as usize];
             let caster_light = &self.caster_lights[face_ref.caster as usize];
@@ -82,9 +79,5 @@ fn aligned(bits: u32, begin: u32) -> i64 {
         _ if shift < begin => integer >> (begin - shift),
         _ => integer << (shift - begin),
     };
-    if is_negative(bits) {
-        -magnitude
-    } else {
-        magnitude
-    }
+    if is_negative(bits) { -magnitude } else { magnitude }
 }

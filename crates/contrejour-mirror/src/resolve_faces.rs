@@ -61,9 +61,5 @@ fn difference(x: Bits3, y: Bits3) -> [WideInteger; 3] {
 
 fn coordinate(bits: u32) -> WideInteger {
     let magnitude = WideInteger::shifted(mantissa(bits), grid_shift(bits));
-    if is_negative(bits) {
-        WideInteger::ZERO - magnitude
-    } else {
-        magnitude
-    }
+    if is_negative(bits) { WideInteger::ZERO - magnitude } else { magnitude }
 }

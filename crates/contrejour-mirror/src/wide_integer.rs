@@ -80,11 +80,7 @@ mod tests {
 
     fn small(value: i32) -> WideInteger {
         let magnitude = WideInteger::shifted(value.unsigned_abs(), 0);
-        if value < 0 {
-            WideInteger::ZERO - magnitude
-        } else {
-            magnitude
-        }
+        if value < 0 { WideInteger::ZERO - magnitude } else { magnitude }
     }
 
     #[test]

@@ -28,22 +28,10 @@ mod tests {
     use super::*;
 
     fn args(near: u32, far: u32) -> [DispatchArgs; 2] {
-        let view = LightView {
-            undecided_capacity: u32::MAX,
-            ..Default::default()
-        };
-        let counters = Counters {
-            undecided_near: near,
-            undecided_far: far,
-            ..Default::default()
-        };
+        let view = LightView { undecided_capacity: u32::MAX, ..Default::default() };
+        let counters = Counters { undecided_near: near, undecided_far: far, ..Default::default() };
         let mut refine_args = [DispatchArgs::default(); 2];
-        WriteRefineArgs {
-            view: &view,
-            counters: &counters,
-            refine_args: &mut refine_args,
-        }
-        .run();
+        WriteRefineArgs { view: &view, counters: &counters, refine_args: &mut refine_args }.run();
         refine_args
     }
 
@@ -62,13 +50,6 @@ mod tests {
     #[test]
     fn more_groups_than_x_holds_are_folded() {
         let [near, _] = args(65_535 * 64 + 1, 0);
-        assert_eq!(
-            near,
-            DispatchArgs {
-                x: 65_535,
-                y: 2,
-                z: 1
-            }
-        );
+        assert_eq!(near, DispatchArgs { x: 65_535, y: 2, z: 1 });
     }
 }
