@@ -1,6 +1,8 @@
 //! Mesh files: one function for all formats, and one for each format from bytes.
 
 mod error;
+#[cfg(feature = "gltf")]
+mod gltf;
 #[cfg(feature = "obj")]
 mod obj;
 #[cfg(feature = "ply")]
@@ -14,6 +16,8 @@ use std::path::Path;
 use crate::MeshFile;
 
 pub use error::LoadError;
+#[cfg(feature = "gltf")]
+pub use gltf::load_gltf;
 #[cfg(feature = "obj")]
 pub use obj::load_obj;
 #[cfg(feature = "ply")]
@@ -45,14 +49,13 @@ pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
     match format {
         #[cfg(feature = "obj")]
         "obj" => load_obj(&bytes, path),
+        #[cfg(feature = "gltf")]
+        "gltf" => load_gltf(&bytes, path),
         #[cfg(feature = "ply")]
         "ply" => load_ply(&bytes, path),
         #[cfg(feature = "stl")]
         "stl" => load_stl(&bytes, path),
-        feature => Err(LoadError::FormatDisabled {
-            path: path.into(),
-            feature,
-        }),
+        feature => Err(LoadError::FormatDisabled { path: path.into(), feature }),
     }
 }
 
@@ -61,10 +64,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {
     if path.is_dir() {
         return Err(LoadError::Directory { path: path.into() });
     }
-    fs::read(path).map_err(|source| LoadError::Read {
-        path: path.into(),
-        source,
-    })
+    fs::read(path).map_err(|source| LoadError::Read { path: path.into(), source })
 }
 
 /// File name without extension: the name of a mesh in formats that name none.
@@ -85,10 +85,6 @@ fn is_finite(position: [f32; 3]) -> bool {
 fn linear_from_srgb(color: [f32; 3]) -> [f32; 3] {
     color.map(|channel| {
         let channel = channel.clamp(0.0, 1.0);
-        if channel > 0.040_45 {
-            ((channel + 0.055) / 1.055).powf(2.4)
-        } else {
-            channel / 12.92
-        }
+        if channel > 0.040_45 { ((channel + 0.055) / 1.055).powf(2.4) } else { channel / 12.92 }
     })
 }

@@ -1,0 +1,161 @@
+//! glTF 2.0 and GLB: one mesh for each node of the scene that has one.
+
+mod accessor;
+mod buffers;
+mod document;
+mod nodes;
+mod primitive;
+mod skin;
+
+use std::path::Path;
+
+use glam::DMat4;
+use gltf::Node;
+
+use super::is_finite;
+use crate::{LoadError, MeshFile, MeshNode, TriangleMesh};
+
+use accessor::Data;
+use primitive::LeftOut;
+
+/// Loads a glTF or GLB file from its bytes; `path` is for messages and for the buffers beside it.
+///
+/// Each node of the default scene that has a mesh brings one [`TriangleMesh`] of all its primitives, in depth-first
+/// order; strips and fans become triangles. Vertex numbers count all vertices of all primitives in that order.
+/// Colours are base colour factors times `COLOR_0`; textures are not read. Morph targets have their default
+/// weights. A skinned mesh stands as its joints place it at rest, in world space, whatever its own node says
+/// (glTF 2.0, 3.7.3.3).
+///
+/// # Errors
+///
+/// [`LoadError`] with node, mesh, primitive, accessor or buffer.
+pub fn load_gltf(bytes: &[u8], path: &Path) -> Result<MeshFile, LoadError> {
+    let parsed = document::parse(bytes, path)?;
+    let document = &parsed.document;
+    let data = Data { buffers: buffers::read_buffers(document, parsed.binary_chunk, path)?, path };
+    let world_from_nodes = nodes::world_from_nodes(document, path)?;
+    let mut loader = Loader {
+        data,
+        world_from_nodes,
+        next_number: 0,
+        primitives_left_out: 0,
+        left_out: LeftOut::default(),
+        has_textures: false,
+    };
+    let mut file = MeshFile::default();
+    for node in nodes::scene_nodes(document, path)? {
+        if let Some((mesh, world_from_object)) = loader.read_node(&node)? {
+            file.nodes.push(MeshNode { mesh: file.meshes.len(), world_from_object });
+            file.meshes.push(mesh);
+        }
+    }
+    file.warnings = loader.warnings();
+    let instancing = "EXT_mesh_gpu_instancing";
+    if document.extensions_used().any(|name| name == instancing) {
+        file.warnings.push(format!("{instancing} is not read; each of its nodes stands once"));
+    }
+    Ok(file)
+}
+
+struct Loader<'a> {
+    data: Data<'a>,
+    world_from_nodes: Vec<DMat4>,
+    next_number: u32,
+    primitives_left_out: usize,
+    left_out: LeftOut,
+    has_textures: bool,
+}
+
+impl Loader<'_> {
+    /// The mesh of a node, and world space from its object space.
+    fn read_node(&mut self, node: &Node) -> Result<Option<(TriangleMesh, DMat4)>, LoadError> {
+        let Some(source) = node.mesh() else {
+            return Ok(None);
+        };
+        let weights = node.weights().or(source.weights()).unwrap_or_default();
+        let joint_matrices = match node.skin() {
+            Some(skin) => Some(skin::joint_matrices(&skin, &self.world_from_nodes, &self.data)?),
+            None => None,
+        };
+        let mut mesh = TriangleMesh {
+            name: node.name().or(source.name()).unwrap_or_default().to_owned(),
+            ..TriangleMesh::default()
+        };
+        for primitive in source.primitives() {
+            let place =
+                format!("{}, mesh {}, primitive {}", nodes::node_place(node), source.index(), primitive.index());
+            if !primitive::has_triangles(&primitive) {
+                self.primitives_left_out += 1;
+                let vertex_count = primitive.get(&gltf::Semantic::Positions).map_or(0, |accessor| accessor.count());
+                mesh.unlisted_vertices += self.numbers(vertex_count)?.count() as u32;
+                continue;
+            }
+            let Some(mut vertices) = primitive::read_vertices(&primitive, weights, &self.data)? else {
+                self.primitives_left_out += 1;
+                continue;
+            };
+            if let Some(joint_matrices) = &joint_matrices {
+                skin::apply(&mut vertices, &primitive, joint_matrices, &self.data, &place)?;
+            }
+            let material = primitive.material();
+            let texture = material.pbr_metallic_roughness().base_color_texture();
+            self.has_textures |= texture.is_some();
+
+            let first_vertex = mesh.positions.len() as u32;
+            for (vertex, position) in vertices.positions.iter().enumerate() {
+                let position = position.map(|coordinate| coordinate as f32);
+                if !is_finite(position) {
+                    return Err(LoadError::NotFinite {
+                        path: self.data.path.into(),
+                        place: format!("{place}, vertex {vertex}"),
+                    });
+                }
+                mesh.positions.push(position);
+            }
+            let to_f32 = |normal: &[f64; 3]| normal.map(|coordinate| coordinate as f32);
+            mesh.normals.extend(vertices.normals.iter().map(to_f32));
+            mesh.normals.resize(mesh.positions.len(), [0.0; 3]);
+            mesh.colors.extend(vertices.colors);
+            let vertex_count = vertices.positions.len();
+            mesh.vertex_numbers.extend(self.numbers(vertex_count)?);
+            let triangles =
+                primitive::read_triangles(&primitive, vertex_count, &self.data, &place, &mut self.left_out)?;
+            let in_mesh = |triangle: [u32; 3]| triangle.map(|vertex| first_vertex + vertex);
+            mesh.triangles.extend(triangles.into_iter().map(in_mesh));
+        }
+        mesh.complete_normals();
+        let world_from_object = match joint_matrices {
+            Some(_) => DMat4::IDENTITY,
+            None => self.world_from_nodes[node.index()],
+        };
+        Ok(Some((mesh, world_from_object)))
+    }
+
+    /// The next numbers of the file.
+    fn numbers(&mut self, count: usize) -> Result<std::ops::Range<u32>, LoadError> {
+        let first = self.next_number;
+        let end = u32::try_from(count).ok().and_then(|count| first.checked_add(count));
+        self.next_number = end.ok_or_else(|| LoadError::TooManyVertices { path: self.data.path.into() })?;
+        Ok(first..self.next_number)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.primitives_left_out > 0 {
+            warnings.push(format!(
+                "{} primitives that are points or lines, or have no positions, are left out",
+                self.primitives_left_out
+            ));
+        }
+        if self.left_out.indices > 0 {
+            warnings.push(format!(
+                "{} indices after the last whole triangle of a primitive are left out",
+                self.left_out.indices
+            ));
+        }
+        if self.has_textures {
+            warnings.push("base colour textures are not read; base colour factors are used".into());
+        }
+        warnings
+    }
+}
