@@ -29,6 +29,7 @@ mod group_args;
 mod image_plane;
 mod refine_faces;
 mod resolve_faces;
+#[cfg(test)]
 mod test_scene;
 mod view_depth;
 mod wide_integer;
