@@ -1,1 +1,389 @@
+use glam::{DMat4, DVec3};
 
+use super::*;
+use crate::{CasterFacts, Light, LightKind, ObjectBox, SettingsError, SmoothieBlend, SmoothieWidth, Technique, views};
+
+/// A closed cube of 12 faces: 18 edges, 6 of them coplanar diagonals that can be in no silhouette.
+const CUBE: MeshFacts =
+    MeshFacts { vertices: 8, faces: 12, two_face_edges: 12, other_edges: 0, incidence_words: 0, vertex_edges: 24 };
+
+/// A closed torus of a million faces.
+const TORUS: MeshFacts = MeshFacts {
+    vertices: 500_000,
+    faces: 1_000_000,
+    two_face_edges: 1_500_000,
+    other_edges: 0,
+    incidence_words: 0,
+    vertex_edges: 3_000_000,
+};
+
+/// Looks down at the origin from a height of 10; the sides of its frustum are at 45 degrees.
+fn spot(radius: f64) -> View {
+    let kind = LightKind::Spot {
+        position: DVec3::new(0.0, 10.0, 0.0),
+        target: DVec3::ZERO,
+        cone_angle: core::f64::consts::FRAC_PI_2,
+        radius,
+        near: 1.0,
+        far: 20.0,
+    };
+    views(&Light { kind, color: [1.0; 3] }).expect("a good spot")[0]
+}
+
+fn caster(name: &str, mesh: usize, world_from_object: DMat4) -> CasterFacts {
+    let bounds = Some(ObjectBox { min: [-0.5; 3], max: [0.5; 3], world_from_object });
+    CasterFacts { name: name.to_owned(), mesh, bounds, own_position_words: 0 }
+}
+
+fn caster_at(name: &str, mesh: usize, place: DVec3) -> CasterFacts {
+    caster(name, mesh, DMat4::from_translation(place))
+}
+
+fn cube_scene() -> SceneFacts {
+    SceneFacts {
+        meshes: vec![CUBE],
+        casters: vec![caster_at("cube", 0, DVec3::ZERO)],
+        receivers: vec!["floor".to_owned()],
+    }
+}
+
+fn smoothies(change: impl FnOnce(&mut SmoothieSettings)) -> ShadowSettings {
+    let mut smoothies = SmoothieSettings::default();
+    change(&mut smoothies);
+    ShadowSettings { technique: Technique::Smoothies(smoothies), ..ShadowSettings::default() }
+}
+
+struct Case {
+    scene: SceneFacts,
+    view: View,
+    settings: ShadowSettings,
+    device: DeviceFacts,
+    outputs: Outputs,
+    capacity: Capacity,
+}
+
+impl Case {
+    fn new(scene: SceneFacts) -> Self {
+        Self {
+            scene,
+            view: spot(0.2),
+            settings: smoothies(|_| ()),
+            device: DeviceFacts::default(),
+            outputs: Outputs::Maps,
+            capacity: Capacity::default(),
+        }
+    }
+
+    fn plan(&self) -> Result<FramePlan, PlanError> {
+        FramePlan::new(&PlanInput {
+            scene: &self.scene,
+            view: &self.view,
+            settings: &self.settings,
+            device: &self.device,
+            outputs: self.outputs,
+            capacity: self.capacity,
+        })
+    }
+
+    fn good(&self) -> FramePlan {
+        let plan = self.plan().expect("can be planned");
+        assert_consistent(&plan);
+        plan
+    }
+}
+
+/// Nothing is missing and nothing is too much: what holds for every plan.
+fn assert_consistent(plan: &FramePlan) {
+    assert!(plan.stages.is_sorted() && plan.passes.is_sorted() && plan.buffers.is_sorted_by_key(|buffer| buffer.kind));
+    for kind in BufferKind::ALL {
+        let bound = plan.stages.iter().any(|stage| stage.buffers().contains(&kind))
+            || plan.passes.iter().any(|pass| pass.buffers().contains(&kind))
+            || kind == BufferKind::ReceiverView && plan.has_pass(Pass::ShadowMap);
+        assert_eq!(plan.buffer(kind).is_some(), bound, "{}", kind.name());
+    }
+    for texture in &plan.textures {
+        assert!(plan.passes.iter().any(|pass| pass.fills().contains(&texture.kind)));
+        assert_eq!(texture.size, plan.settings.map_size);
+    }
+    let filled: usize = plan.passes.iter().map(|pass| pass.fills().len()).sum();
+    assert_eq!(plan.textures.len(), filled);
+    assert!(plan.buffers.iter().all(|buffer| buffer.bytes >= buffer.kind.item_bytes()));
+    // Whatever does not run has its reason.
+    let has_reason = |what: &[Omitted]| what.iter().any(|what| plan.reason(what).is_some());
+    for stage in Stage::ALL {
+        let group = if Stage::DETECTION.contains(&stage) { Omitted::DetectionStages } else { Omitted::ExtrusionStages };
+        assert_eq!(plan.has_stage(stage), !has_reason(&[group]), "{}", stage.name());
+    }
+    for pass in Pass::ALL {
+        let mut what = vec![Omitted::Pass(pass)];
+        if pass.draws_smoothies() {
+            what.push(Omitted::SmoothiePasses);
+        }
+        assert_eq!(plan.has_pass(pass), !has_reason(&what), "{}", pass.name());
+    }
+}
+
+fn bytes(plan: &FramePlan, kind: BufferKind) -> Option<u64> {
+    plan.buffer(kind).map(|buffer| buffer.bytes)
+}
+
+#[test]
+fn smoothies_run_everything_in_two_passes() {
+    let plan = Case::new(cube_scene()).good();
+    assert_eq!(plan.stages, Stage::ALL);
+    assert_eq!(plan.passes, [Pass::ShadowMap, Pass::SmoothieDepth, Pass::SmoothieAlpha]);
+    assert_eq!(plan.pipelines.len(), 9 + 1 + 2 + 2);
+    assert_eq!(plan.reason(&Omitted::Pass(Pass::SmoothieBuffer)), Some(Reason::DeviceBlendsNoFloats));
+    assert_eq!(plan.reason(&Omitted::Topology("floor".to_owned())), Some(Reason::ReceivesOnly));
+    assert_eq!(plan.reason(&Omitted::InstanceTransforms), Some(Reason::NothingIsInstanced));
+    assert_eq!((plan.casting.as_slice(), plan.casts(0), plan.casts(1)), (&[0][..], true, false));
+}
+
+#[test]
+fn sizes_follow_the_counts() {
+    let mut case = Case::new(cube_scene());
+    case.scene.casters.push(caster_at("twin", 0, DVec3::X));
+    let plan = case.good();
+    assert_eq!(bytes(&plan, BufferKind::Positions), Some(8 * 12), "twins share the mesh");
+    assert_eq!(bytes(&plan, BufferKind::Faces), Some(12 * 12));
+    assert_eq!(bytes(&plan, BufferKind::Edges), Some(12 * 16));
+    assert_eq!(bytes(&plan, BufferKind::Incidences), Some(4), "never empty");
+    assert_eq!(bytes(&plan, BufferKind::VertexEdges), Some((9 + 2 * 24) * 4));
+    assert_eq!(bytes(&plan, BufferKind::Casters), Some(2 * 48));
+    assert_eq!(bytes(&plan, BufferKind::FaceItems), Some(2 * 8));
+    assert_eq!(bytes(&plan, BufferKind::EdgeItems), Some(2 * 8));
+    assert_eq!(bytes(&plan, BufferKind::Lit), Some(2 * 2 * 4));
+    assert_eq!(bytes(&plan, BufferKind::OutlineSides), Some(2 * 4 * 4));
+    assert_eq!(bytes(&plan, BufferKind::Undecided), Some(24 * 8));
+    assert_eq!(bytes(&plan, BufferKind::Silhouettes), Some(24 * 16));
+    assert_eq!(bytes(&plan, BufferKind::RefineArgs), Some(2 * 12));
+    assert_eq!(bytes(&plan, BufferKind::DrawArgs), Some(2 * 16));
+    let counts = ViewCounts { face_items: 2, edge_items: 2, undecided: 24, silhouettes: 24, quads: 24, corners: 48 };
+    assert_eq!(plan.counts, counts);
+    assert_eq!(plan.texture(TextureKind::ShadowDepth).map(|texture| texture.bytes), Some(1024 * 1024 * 4));
+    assert_eq!(plan.texture(TextureKind::SmoothieAlpha).map(|texture| texture.bytes), Some(1024 * 1024 * 2));
+}
+
+#[test]
+fn callers_positions_come_behind_the_meshes() {
+    let mut case = Case::new(cube_scene());
+    case.scene.casters[0].own_position_words = 7 * 4 + 3;
+    case.scene.casters[0].bounds = None;
+    let plan = case.good();
+    assert_eq!(bytes(&plan, BufferKind::Positions), Some((24 + 31) * 4));
+    assert_eq!(plan.casting, [0], "where it is only the GPU knows");
+}
+
+#[test]
+fn floats_that_blend_save_a_pass() {
+    let mut case = Case::new(cube_scene());
+    case.device.float32_blendable = true;
+    let plan = case.good();
+    assert_eq!(plan.passes, [Pass::ShadowMap, Pass::SmoothieBuffer]);
+    assert_eq!(plan.reason(&Omitted::Pass(Pass::SmoothieAlpha)), Some(Reason::DeviceBlendsFloats));
+    assert!(plan.texture(TextureKind::SmoothieDepth).is_none());
+    case.settings = smoothies(|smoothies| smoothies.blend = SmoothieBlend::TwoPasses);
+    let plan = case.good();
+    assert!(plan.has_pass(Pass::SmoothieAlpha));
+    assert_eq!(plan.reason(&Omitted::Pass(Pass::SmoothieBuffer)), Some(Reason::TwoPassesAskedFor));
+}
+
+#[test]
+fn a_shadow_map_needs_no_silhouettes() {
+    let mut case = Case::new(cube_scene());
+    case.settings.technique = Technique::ShadowMap;
+    let plan = case.good();
+    assert!(plan.stages.is_empty());
+    assert_eq!(plan.passes, [Pass::ShadowMap]);
+    assert_eq!(plan.counts.edge_items, 0);
+    assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::TechniqueIsShadowMap));
+    assert!(plan.buffer(BufferKind::Edges).is_none() && plan.buffer(BufferKind::FaceItems).is_some());
+}
+
+#[test]
+fn a_light_without_size_has_hard_shadows() {
+    let mut case = Case::new(cube_scene());
+    case.view = spot(0.0);
+    let plan = case.good();
+    assert_eq!(plan.passes, [Pass::ShadowMap]);
+    assert_eq!(plan.reason(&Omitted::SmoothiePasses), Some(Reason::LightHasNoSize));
+    case.settings = smoothies(|smoothies| smoothies.width = SmoothieWidth::Ndc(0.02));
+    assert_eq!(case.good().stages, Stage::ALL, "a given width needs no light's size");
+}
+
+#[test]
+fn silhouettes_alone_stop_at_the_list() {
+    let mut case = Case::new(cube_scene());
+    case.outputs = Outputs::Silhouettes;
+    case.scene.casters.push(caster_at("far", 0, DVec3::new(100.0, 0.0, 0.0)));
+    for technique in [case.settings.technique, Technique::ShadowMap] {
+        case.settings.technique = technique;
+        let plan = case.good();
+        assert_eq!(plan.stages, Stage::DETECTION);
+        assert!(plan.passes.is_empty() && plan.textures.is_empty());
+        assert!(plan.buffer(BufferKind::Quads).is_none() && plan.buffer(BufferKind::VertexEdges).is_none());
+        assert_eq!(plan.casting, [0, 1], "the list does not end with the frustum");
+        assert_eq!(plan.reason(&Omitted::ExtrusionStages), Some(Reason::OnlySilhouettesWanted));
+    }
+}
+
+#[test]
+fn the_visibility_texture_is_a_pass_more() {
+    let mut case = Case::new(cube_scene());
+    assert_eq!(case.good().reason(&Omitted::Pass(Pass::Visibility)), Some(Reason::NoVisibilityTextureWanted));
+    case.outputs = Outputs::VisibilityTexture;
+    assert_eq!(case.good().passes.last(), Some(&Pass::Visibility));
+}
+
+#[test]
+fn casters_that_cannot_cast_have_no_work() {
+    let mut case = Case::new(cube_scene());
+    case.scene.meshes.push(MeshFacts::default());
+    case.scene.casters.extend([
+        caster_at("far", 0, DVec3::new(100.0, 0.0, 0.0)),
+        caster("flat", 0, DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0))),
+        caster_at("empty", 1, DVec3::ZERO),
+        caster_at("last", 0, DVec3::new(0.0, 1.0, 0.0)),
+    ]);
+    let plan = case.good();
+    assert_eq!(plan.casting, [0, 4]);
+    assert_eq!((plan.counts.face_items, plan.counts.edge_items, plan.singular_casters), (2, 2, 1));
+    let reason = |name: &str| plan.reason(&Omitted::CasterWork(name.to_owned()));
+    assert_eq!(reason("far"), Some(Reason::OutsideFrustum));
+    assert_eq!(reason("flat"), Some(Reason::SingularMatrix));
+    assert_eq!(reason("empty"), Some(Reason::NoFaces));
+    assert_eq!(reason("last"), None);
+    assert_eq!(plan.buffer(BufferKind::FaceItems).map(|buffer| buffer.items), Some(4), "room for all of them");
+}
+
+#[test]
+fn the_frustum_is_as_wide_as_smoothies_reach() {
+    let mut case = Case::new(cube_scene());
+    // The nearest corner is at 10.7 of 10 units from the axis, at a depth of 10.5: x / w = 1.07 at its top.
+    case.scene.casters[0] = caster_at("beside", 0, DVec3::new(11.2, 0.0, 0.0));
+    case.settings = smoothies(|smoothies| smoothies.width = SmoothieWidth::Ndc(0.1));
+    assert_eq!(case.good().casting, [0]);
+    case.settings = smoothies(|smoothies| smoothies.width = SmoothieWidth::Ndc(0.005));
+    assert!(case.good().casting.is_empty());
+}
+
+#[test]
+fn an_orbiting_light_creates_nothing() {
+    let mut case = Case::new(cube_scene());
+    case.scene.casters.push(caster_at("sometimes", 0, DVec3::new(100.0, 0.0, 0.0)));
+    let before = case.good();
+    case.scene.casters[1] = caster_at("sometimes", 0, DVec3::ZERO);
+    let after = case.good();
+    assert_ne!(before.counts.face_items, after.counts.face_items);
+    assert_eq!((before.buffers, before.textures, before.pipelines), (after.buffers, after.textures, after.pipelines));
+}
+
+#[test]
+fn an_empty_scene_clears_the_map() {
+    for scene in [SceneFacts::default(), SceneFacts { meshes: vec![MeshFacts::default()], ..cube_scene() }] {
+        let mut case = Case::new(scene);
+        let plan = case.good();
+        assert_eq!(plan.passes, [Pass::ShadowMap]);
+        assert_eq!(plan.reason(&Omitted::SmoothiePasses), Some(Reason::NothingCasts));
+        assert_eq!(plan.counts, ViewCounts::default());
+        case.outputs = Outputs::Silhouettes;
+        let plan = case.good();
+        assert!(plan.stages.is_empty() && plan.buffers.is_empty());
+    }
+}
+
+#[test]
+fn quads_start_from_the_estimate_and_grow() {
+    let mut case = Case::new(SceneFacts { meshes: vec![TORUS], ..cube_scene() });
+    let plan = case.good();
+    assert_eq!(plan.capacity(), Capacity { quads: 44_224, corners: 44_224 });
+    assert_eq!(plan.counts.silhouettes, 1_500_000, "the list has room for every edge");
+    assert_eq!(plan.counts.undecided, 1_000_000);
+    let counted = contrejour_layout::Counters { quads: 60_000, corners: 50, ..Default::default() };
+    case.capacity = plan.capacity().grown_for(&counted);
+    assert_eq!(case.good().capacity(), Capacity { quads: 75_008, corners: 44_224 });
+}
+
+#[test]
+fn the_remap_is_an_override_constant() {
+    let mut case = Case::new(cube_scene());
+    for (remap, value) in [(AlphaRemap::Contact, 1.0), (AlphaRemap::Off, 0.0)] {
+        case.settings = smoothies(|smoothies| smoothies.remap = remap);
+        let plan = case.good();
+        let with_constants: Vec<_> = plan.pipelines.iter().filter(|pipeline| !pipeline.constants.is_empty()).collect();
+        assert_eq!(with_constants.len(), 4);
+        assert!(with_constants.iter().all(|pipeline| pipeline.constants == [("remap_alpha", value)]));
+    }
+}
+
+#[test]
+fn what_the_device_cannot_hold_is_an_error() {
+    let mut case = Case::new(SceneFacts { meshes: vec![TORUS], ..cube_scene() });
+    case.device.max_storage_buffer_binding_size = 20_000_000;
+    let error = case.plan().expect_err("24 MB of edges");
+    let edges = PlanError::BufferTooLarge {
+        buffer: BufferKind::Edges,
+        needed: 24_000_000,
+        limit: 20_000_000,
+        limit_name: "max_storage_buffer_binding_size",
+    };
+    assert_eq!(error, edges);
+    assert!(error.to_string().contains("request the device with a larger max_storage_buffer_binding_size"));
+    case.device = DeviceFacts { max_texture_dimension_2d: 512, ..DeviceFacts::default() };
+    assert_eq!(case.plan(), Err(PlanError::MapTooLarge { map_size: 1024, limit: 512 }));
+    case.outputs = Outputs::Silhouettes;
+    assert!(case.plan().is_ok(), "no maps, no limit");
+    case.device.max_buffer_size = 1_000_000;
+    assert!(matches!(case.plan(), Err(PlanError::BufferTooLarge { limit_name: "max_buffer_size", .. })));
+}
+
+#[test]
+fn what_32_bits_cannot_count_is_an_error() {
+    let mesh = MeshFacts { faces: 3_000_000_000, two_face_edges: 10, ..CUBE };
+    let mut case = Case::new(SceneFacts { meshes: vec![mesh, mesh], ..cube_scene() });
+    case.device = DeviceFacts { max_storage_buffer_binding_size: u64::MAX, max_buffer_size: u64::MAX, ..case.device };
+    let needed = 6_000_000_000;
+    assert_eq!(case.plan(), Err(PlanError::TooManyRecords { buffer: BufferKind::Faces, needed }));
+}
+
+#[test]
+fn bad_input_is_an_error() {
+    let mut case = Case::new(cube_scene());
+    case.settings.map_size = 0;
+    assert_eq!(case.plan(), Err(PlanError::Settings(SettingsError::NoTexels)));
+    let mut case = Case::new(cube_scene());
+    case.scene.casters[0].mesh = 3;
+    assert_eq!(case.plan(), Err(PlanError::UnknownMesh { caster: 0, mesh: 3, meshes: 1 }));
+}
+
+#[test]
+fn the_print_shows_all_of_it() {
+    let plan = Case::new(cube_scene()).good();
+    let print = plan.to_string();
+    for stage in &plan.stages {
+        assert!(print.contains(stage.name()));
+    }
+    for buffer in &plan.buffers {
+        assert!(print.contains(buffer.kind.name()));
+    }
+    for line in [
+        "technique: smoothies, 1024 texels",
+        "  shadow_depth           1024 x 1024 r32float      4.0 MiB",
+        "  quads          12 x 64 B   768 B",
+        "  topology of floor     it only receives",
+    ] {
+        assert!(print.lines().any(|printed| printed == line), "no line \"{line}\" in\n{print}");
+    }
+    assert!(print.lines().all(|line| line == line.trim_end()));
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_plan_is_json() {
+    let json = serde_json::to_value(Case::new(cube_scene()).good()).expect("plain data");
+    assert_eq!(json["stages"][0], "classify_faces");
+    assert_eq!(json["passes"][2], "smoothie_alpha");
+    assert_eq!(json["buffers"][0]["kind"], "positions");
+    assert_eq!(json["settings"]["technique"]["smoothies"]["width"], "from-light-size");
+    assert_eq!(json["left_out"][0]["reason"], "device_blends_no_floats");
+}
