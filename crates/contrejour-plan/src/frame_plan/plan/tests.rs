@@ -369,7 +369,7 @@ fn the_print_shows_all_of_it() {
     for line in [
         "technique: smoothies, 1024 texels",
         "  shadow_depth           1024 x 1024 r32float      4.0 MiB",
-        "  quads          12 x 64 B   768 B",
+        "  quads          12 x 64 B  768 B",
         "  topology of floor     it only receives",
     ] {
         assert!(print.lines().any(|printed| printed == line), "no line \"{line}\" in\n{print}");
