@@ -1,7 +1,13 @@
 //! The harness of the tests: a shared device, stages run alone, meshes, lights, and comparers that can fail.
 
 pub mod compare;
+pub mod frame;
 pub mod gpu;
 pub mod harness;
 pub mod image_compare;
+pub mod lights;
+pub mod meshes;
+pub mod mirror_run;
+pub mod oracle;
+pub mod random;
 pub mod stage_run;

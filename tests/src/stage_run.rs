@@ -81,6 +81,11 @@ impl StageRun {
         Self { name: entry_point.into(), pipeline, layout, bindings }
     }
 
+    /// The names of its bindings.
+    pub fn bindings(&self) -> impl Iterator<Item = &str> {
+        self.bindings.iter().map(|binding| binding.name.as_str())
+    }
+
     /// Runs one dispatch with a buffer for each binding, by name, and returns what it wrote.
     ///
     /// # Panics

@@ -1,7 +1,31 @@
 //! Each compute stage against its CPU twin, buffer by buffer, fed with inputs made on the CPU.
 
+mod build_corners;
+mod classify_faces;
+mod detect_silhouette;
+mod device_errors;
+mod extrude_edges;
+mod parity;
+mod refine_faces;
+mod resolve_faces;
+mod write_draw_args;
+mod write_extrude_args;
+mod write_refine_args;
+
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    contrejour_tests::harness::run(Vec::new())
+    let trials = [
+        device_errors::trials(),
+        classify_faces::trials(),
+        write_refine_args::trials(),
+        refine_faces::trials(),
+        resolve_faces::trials(),
+        detect_silhouette::trials(),
+        write_extrude_args::trials(),
+        extrude_edges::trials(),
+        build_corners::trials(),
+        write_draw_args::trials(),
+    ];
+    contrejour_tests::harness::run(trials.into_iter().flatten().collect())
 }

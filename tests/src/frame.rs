@@ -1,0 +1,202 @@
+//! All buffers of one frame on the CPU, pooled without the library's own pooling, and stages that run on them.
+
+use bytemuck::{bytes_of, cast_slice};
+use contrejour_layout::{
+    BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
+    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, SilhouetteEdge, WorkItem,
+};
+use contrejour_plan::{Light, ShadowSettings, ViewCounts, caster_light, position_scale, views};
+
+use crate::meshes::TestPart;
+use crate::random::Random;
+
+/// Words that lie between the parts of a pool and mean nothing: a stage that reads them goes wrong.
+const GAP: [u32; 7] = [0xdead_beef; 7];
+
+/// Every buffer that the stages bind, named as the stages name them.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the fields are the bindings, and the stages' files say what they hold")]
+pub struct Frame {
+    pub view: LightView,
+    pub face_items: Vec<WorkItem>,
+    pub edge_items: Vec<WorkItem>,
+    pub casters: Vec<Caster>,
+    pub caster_lights: Vec<CasterLight>,
+    pub faces: Vec<Face>,
+    pub positions: Vec<u32>,
+    pub edges: Vec<Edge>,
+    pub incidences: Vec<u32>,
+    pub vertex_edges: Vec<u32>,
+    pub lit: Vec<u32>,
+    pub undecided: Vec<FaceRef>,
+    pub counters: Counters,
+    pub refine_args: Vec<DispatchArgs>,
+    pub silhouettes: Vec<SilhouetteEdge>,
+    pub outline_sides: Vec<u32>,
+    pub extrude_args: Vec<DispatchArgs>,
+    pub quads: Vec<Quad>,
+    pub corners: Vec<Corner>,
+    pub draw_args: Vec<DrawArgs>,
+}
+
+impl Frame {
+    /// The parts as casters of the light's first view, with room for all that they can need, before the first stage.
+    ///
+    /// # Panics
+    ///
+    /// When the light or the settings are refused.
+    pub fn new(parts: &[TestPart], light: &Light, settings: &ShadowSettings) -> Self {
+        let view = views(light).expect("the lights of the tests are good")[0];
+        let mut frame = Self::empty();
+        let (mut lit_words, mut outline_words) = (0, 0);
+        for (part, index) in parts.iter().zip(0..) {
+            let caster = frame.add_part(part, index, lit_words, outline_words);
+            lit_words += caster.face_count.div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
+            outline_words += caster.edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK;
+            let light = caster_light(&view, &part.world_from_object, caster.position_scale);
+            if light.casts == 1 {
+                frame.face_items.extend(items(index, caster.face_count));
+                frame.edge_items.extend(items(index, caster.edge_count));
+            }
+            frame.caster_lights.push(light);
+            frame.casters.push(caster);
+        }
+        shuffle(&mut frame.face_items);
+        shuffle(&mut frame.edge_items);
+
+        let face_count: u32 = frame.casters.iter().map(|caster| caster.face_count).sum();
+        let edge_count: u32 = frame.casters.iter().map(|caster| caster.edge_count).sum();
+        let counts = ViewCounts {
+            face_items: frame.face_items.len() as u32,
+            edge_items: frame.edge_items.len() as u32,
+            undecided: face_count,
+            silhouettes: edge_count,
+            quads: edge_count,
+            corners: 2 * edge_count,
+        };
+        frame.view = view.light_view(settings, &counts);
+        frame.lit = vec![0; lit_words as usize];
+        frame.outline_sides = vec![0; outline_words as usize];
+        frame.set_room(counts);
+        frame
+    }
+
+    /// No casters and no room.
+    pub fn empty() -> Self {
+        Self {
+            view: LightView::default(),
+            face_items: Vec::new(),
+            edge_items: Vec::new(),
+            casters: Vec::new(),
+            caster_lights: Vec::new(),
+            faces: Vec::new(),
+            positions: Vec::new(),
+            edges: Vec::new(),
+            incidences: Vec::new(),
+            vertex_edges: Vec::new(),
+            lit: Vec::new(),
+            undecided: Vec::new(),
+            counters: Counters::default(),
+            refine_args: vec![DispatchArgs::default(); 2],
+            silhouettes: Vec::new(),
+            outline_sides: Vec::new(),
+            extrude_args: vec![DispatchArgs::default(); 2],
+            quads: Vec::new(),
+            corners: Vec::new(),
+            draw_args: vec![DrawArgs::default(); 2],
+        }
+    }
+
+    /// Gives the lists other sizes, in the records and in the view.
+    pub fn set_room(&mut self, counts: ViewCounts) {
+        self.view.undecided_capacity = counts.undecided;
+        self.view.silhouette_capacity = counts.silhouettes;
+        self.view.quad_capacity = counts.quads;
+        self.view.corner_capacity = counts.corners;
+        self.undecided = vec![FaceRef::default(); counts.undecided as usize];
+        self.silhouettes = vec![SilhouetteEdge::default(); counts.silhouettes as usize];
+        self.quads = vec![Quad::default(); counts.quads as usize];
+        self.corners = vec![Corner::default(); counts.corners as usize];
+    }
+
+    /// Puts a part into the pools, behind a gap, every second one with a wider stride between its positions.
+    fn add_part(&mut self, part: &TestPart, index: u32, lit_words: u32, outline_words: u32) -> Caster {
+        let mesh = &part.topology;
+        let stride = 3 + index % 2;
+        self.positions.extend(GAP);
+        self.incidences.extend(GAP);
+        self.vertex_edges.extend(GAP);
+        self.faces.push(Face { a: GAP[0], b: GAP[1], c: GAP[2] });
+        self.edges.push(Edge { low_vertex: GAP[0], high_vertex: GAP[1], first: GAP[2], second: GAP[3] });
+
+        let candidates = &mesh.edges[..mesh.candidate_edge_count as usize];
+        let first_vertex_offset_word = self.vertex_edges.len() as u32;
+        let caster = Caster {
+            first_position_word: self.positions.len() as u32,
+            position_stride_words: stride,
+            first_face: self.faces.len() as u32,
+            face_count: mesh.faces.len() as u32,
+            first_edge: self.edges.len() as u32,
+            edge_count: mesh.candidate_edge_count,
+            first_incidence: self.incidences.len() as u32,
+            first_vertex_offset_word,
+            first_vertex_edge_word: first_vertex_offset_word + mesh.vertex_edge_offsets.len() as u32,
+            first_lit_word: lit_words,
+            first_outline_word: outline_words,
+            position_scale: position_scale(mesh.bounds_min, mesh.bounds_max),
+        };
+        for position in &mesh.positions {
+            self.positions.extend(position.map(f32::to_bits));
+            self.positions.extend(&GAP[3..stride as usize]);
+        }
+        self.faces.extend(&mesh.faces);
+        self.edges.extend(candidates);
+        self.incidences.extend(&mesh.incidences);
+        self.vertex_edges.extend(&mesh.vertex_edge_offsets);
+        self.vertex_edges.extend(mesh.vertex_edges.iter().flat_map(|edge| [edge.edge_id, edge.other_vertex]));
+        caster
+    }
+
+    /// The bytes of a binding.
+    ///
+    /// # Panics
+    ///
+    /// When no buffer has the name.
+    pub fn bytes(&self, binding: &str) -> &[u8] {
+        match binding {
+            "view" => bytes_of(&self.view),
+            "face_items" => cast_slice(&self.face_items),
+            "edge_items" => cast_slice(&self.edge_items),
+            "casters" => cast_slice(&self.casters),
+            "caster_lights" => cast_slice(&self.caster_lights),
+            "faces" => cast_slice(&self.faces),
+            "positions" => cast_slice(&self.positions),
+            "edges" => cast_slice(&self.edges),
+            "incidences" => cast_slice(&self.incidences),
+            "vertex_edges" => cast_slice(&self.vertex_edges),
+            "lit" => cast_slice(&self.lit),
+            "undecided" => cast_slice(&self.undecided),
+            "counters" => bytes_of(&self.counters),
+            "refine_args" => cast_slice(&self.refine_args),
+            "silhouettes" => cast_slice(&self.silhouettes),
+            "outline_sides" => cast_slice(&self.outline_sides),
+            "extrude_args" => cast_slice(&self.extrude_args),
+            "quads" => cast_slice(&self.quads),
+            "corners" => cast_slice(&self.corners),
+            "draw_args" => cast_slice(&self.draw_args),
+            _ => panic!("no buffer is named {binding}"),
+        }
+    }
+}
+
+fn items(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {
+    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block })
+}
+
+/// Work items may come in any order.
+fn shuffle(items: &mut [WorkItem]) {
+    let mut random = Random::new(items.len() as u64);
+    for end in (1..items.len()).rev() {
+        items.swap(end, random.below(end + 1));
+    }
+}

@@ -1,0 +1,72 @@
+//! Lit bits to silhouette edges.
+
+use contrejour_layout::{Counters, SilhouetteEdge};
+use contrejour_plan::ViewCounts;
+use contrejour_tests::compare::{compare_exact, compare_records};
+use contrejour_tests::frame::Frame;
+use contrejour_tests::gpu::Gpu;
+use contrejour_tests::harness::{Outcome, gpu_trial};
+use contrejour_tests::random::Random;
+use contrejour_tests::stage_run::StageRun;
+use libtest_mimic::Trial;
+
+use crate::parity::{for_each_case, run, stage};
+
+const BEFORE: [&str; 4] = ["classify_faces", "write_refine_args", "refine_faces", "resolve_faces"];
+
+pub fn trials() -> Vec<Trial> {
+    vec![
+        gpu_trial("detect_silhouette::equals_its_twin", equals_its_twin),
+        gpu_trial("detect_silhouette::equals_its_twin_on_random_bits", equals_its_twin_on_random_bits),
+        gpu_trial("detect_silhouette::counts_past_a_full_list", counts_past_a_full_list),
+    ]
+}
+
+fn equals_its_twin(gpu: &Gpu) -> Outcome {
+    let stage = stage(gpu, "detect_silhouette");
+    for_each_case(&BEFORE, |case| compare(gpu, &stage, &case.frame))
+}
+
+fn equals_its_twin_on_random_bits(gpu: &Gpu) -> Outcome {
+    let stage = stage(gpu, "detect_silhouette");
+    let mut random = Random::new(2);
+    for_each_case(&[], |case| {
+        let mut frame = case.frame.clone();
+        frame.lit.fill_with(|| random.word());
+        compare(gpu, &stage, &frame)
+    })
+}
+
+fn compare(gpu: &Gpu, stage: &StageRun, frame: &Frame) -> Outcome {
+    let mut twin = frame.clone();
+    twin.outline_sides.fill(u32::MAX);
+    let outputs = run(gpu, stage, &twin, twin.view.edge_item_count);
+    twin.run_mirror("detect_silhouette");
+    let counters: Vec<Counters> = outputs.get("counters");
+    compare_exact("counters", &[twin.counters], &counters)?;
+    compare_exact("outline_sides", &twin.outline_sides, &outputs.get("outline_sides"))?;
+    let count = twin.counters.silhouette_edges as usize;
+    let found: Vec<SilhouetteEdge> = outputs.get("silhouettes");
+    compare_records("silhouette", &twin.silhouettes[..count], &found[..count], 0.0)
+}
+
+fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
+    let stage = stage(gpu, "detect_silhouette");
+    for_each_case(&BEFORE, |case| {
+        let mut complete = case.frame.clone();
+        complete.run_mirror("detect_silhouette");
+        let Some(room) = complete.counters.silhouette_edges.checked_sub(1) else { return Ok(()) };
+
+        let mut frame = case.frame.clone();
+        frame.set_room(ViewCounts { silhouettes: room, ..Default::default() });
+        let outputs = run(gpu, &stage, &frame, frame.view.edge_item_count);
+        compare_exact("counters", &[complete.counters], &outputs.get::<Counters>("counters"))?;
+        let found: Vec<SilhouetteEdge> = outputs.get("silhouettes");
+        for edge in &found {
+            if !complete.silhouettes.contains(edge) {
+                return Err(format!("{edge:?} is not in the complete list"));
+            }
+        }
+        Ok(())
+    })
+}

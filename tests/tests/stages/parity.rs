@@ -1,0 +1,92 @@
+//! The frames that the stages are compared on, and one stage on the device.
+
+use contrejour_plan::{Light, ShadowSettings};
+use contrejour_tests::frame::Frame;
+use contrejour_tests::gpu::Gpu;
+use contrejour_tests::harness::Outcome;
+use contrejour_tests::lights::lights;
+use contrejour_tests::meshes::{TestMesh, TestPart, shapes, shared_named, tiny};
+use contrejour_tests::random::Random;
+use contrejour_tests::stage_run::{Outputs, StageRun};
+use glam::{DMat4, DQuat, DVec3};
+
+/// Files of the shared folder with many kinds of edges and few enough faces for the exact tiers on a CPU.
+const FILES: [&str; 9] = [
+    "nasty/moebius.obj",
+    "nasty/triple_vierbein.obj",
+    "nasty/wallhole.obj",
+    "nasty/box_longline.obj",
+    "nasty/deg_faces.obj",
+    "nasty/hollowcube.obj",
+    "nasty/Offset1.obj",
+    "nasty/dragon_vrip_res4.ply",
+    "animated/RiggedFigure.glb",
+];
+
+/// One mesh or many under one light, before the first stage.
+pub struct Case {
+    /// Mesh and light, for messages.
+    pub name: String,
+    /// Its buffers.
+    pub frame: Frame,
+}
+
+/// Calls `check` for each mesh and light with a frame whose earlier stages have run on the CPU.
+pub fn for_each_case(stages_before: &[&str], mut check: impl FnMut(&Case) -> Outcome) -> Outcome {
+    for mesh in meshes() {
+        let step = if mesh.face_count() > 500 { 6 } else { 3 };
+        for (index, light) in lights(&mesh).iter().enumerate().step_by(step) {
+            let mut case = Case { name: format!("{}, light {index}", mesh.name), frame: frame(&mesh.parts, light) };
+            for stage in stages_before {
+                case.frame.run_mirror(stage);
+            }
+            check(&case).map_err(|difference| format!("{}: {difference}", case.name))?;
+        }
+    }
+    Ok(())
+}
+
+fn frame(parts: &[TestPart], light: &Light) -> Frame {
+    Frame::new(parts, light, &ShadowSettings::default())
+}
+
+fn meshes() -> Vec<TestMesh> {
+    let mut meshes = tiny();
+    meshes.extend(shapes());
+    let together = crowd(&meshes);
+    meshes.push(together);
+    meshes.extend(shared_named(&FILES));
+    meshes
+}
+
+/// All of them in one pool, turned, stretched, mirrored, and one flat.
+fn crowd(meshes: &[TestMesh]) -> TestMesh {
+    let mut random = Random::new(1);
+    let parts = meshes.iter().filter(|mesh| !mesh.name.starts_with("soup of")).flat_map(|mesh| &mesh.parts);
+    let parts = parts.enumerate().map(|(index, part)| {
+        let mut vector = || DVec3::new(random.signed(), random.signed(), random.signed());
+        let scale = match index {
+            3 => DVec3::new(1.0, 0.0, 1.0),
+            _ => 1.0 + 0.5 * vector() - 2.0 * DVec3::X * f64::from(index % 2 == 1),
+        };
+        let turn = DQuat::from_rotation_arc(DVec3::Y, vector().normalize());
+        let world_from_object = DMat4::from_scale_rotation_translation(scale, turn, 4.0 * vector());
+        TestPart { topology: part.topology.clone(), world_from_object }
+    });
+    TestMesh { name: "crowd".into(), parts: parts.collect() }
+}
+
+/// The stage of a name as the library runs it.
+pub fn stage(gpu: &Gpu, name: &str) -> StageRun {
+    let stages = &contrejour_gpu::stages::ALL;
+    let stage = stages.iter().find(|stage| stage.stage.name() == name);
+    StageRun::new(gpu, stage.unwrap_or_else(|| panic!("the library has no stage {name}")).wgsl, name)
+}
+
+/// Runs it on a frame's buffers.
+pub fn run(gpu: &Gpu, stage: &StageRun, frame: &Frame, groups: u32) -> Outputs {
+    // Folded like a large dispatch, with groups left over.
+    let groups = if groups > 3 { [3, groups.div_ceil(3), 1] } else { [groups, 1, 1] };
+    let inputs: Vec<_> = stage.bindings().map(|name| (name, frame.bytes(name))).collect();
+    stage.run(gpu, groups, &inputs)
+}
