@@ -135,12 +135,14 @@ mod tests {
 
     #[test]
     fn singular_matrices_cast_nothing() {
-        let rotation = DMat4::from_quat(DQuat::from_rotation_z(0.3));
+        let axis = DVec3::new(1.0, 2.0, -1.0).normalize();
+        let rotation = DMat4::from_quat(DQuat::from_axis_angle(axis, 0.3));
         let flat = DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0));
         let mut projective = DMat4::IDENTITY;
         projective.z_axis.w = 1.0;
         let nan = DMat4::from_translation(DVec3::new(f64::NAN, 0.0, 0.0));
-        for matrix in [DMat4::ZERO, flat, flat * rotation, rotation * flat, projective, nan] {
+        for matrix in [DMat4::ZERO, flat, flat * rotation, rotation * flat, rotation * flat * rotation, projective, nan]
+        {
             for light in [DVec4::new(1.0, 2.0, 3.0, 1.0), DVec4::new(1.0, 2.0, 3.0, 0.0)] {
                 assert_eq!(object_light(light, &matrix), ObjectLight::SINGULAR, "{matrix}");
             }
