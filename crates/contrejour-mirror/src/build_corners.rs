@@ -11,7 +11,7 @@ use contrejour_layout::{
 use glam::Vec2;
 
 use crate::caster_position::scaled_position;
-use crate::image_plane::{clip_of_delta, clip_of_position, clockwise, counter_clockwise, halfway, image_direction};
+use crate::image_plane::{clip_from_object, clockwise, counter_clockwise, halfway, image_direction};
 
 /// Two directions whose cosine is nearer to 1 than this can't be told apart.
 const COINCIDENT: f32 = 1e-4;
@@ -151,10 +151,10 @@ impl BuildCorners<'_> {
     /// all ends agree on it to the bit.
     fn direction_to(&self, edge_end: &EdgeEnd, other_vertex: u32, caster_id: u32) -> Option<Vec2> {
         let caster = &self.casters[caster_id as usize];
-        let light = &self.caster_lights[caster_id as usize];
+        let clip_from_object = clip_from_object(&self.caster_lights[caster_id as usize]);
         let low = scaled_position(caster, self.positions, edge_end.vertex.min(other_vertex));
         let high = scaled_position(caster, self.positions, edge_end.vertex.max(other_vertex));
-        let direction = image_direction(clip_of_position(light, low), clip_of_delta(light, high - low))?;
+        let direction = image_direction(&clip_from_object, low, high)?;
         Some(if edge_end.vertex < other_vertex { direction } else { -direction })
     }
 

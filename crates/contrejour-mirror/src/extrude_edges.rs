@@ -9,7 +9,7 @@ use contrejour_layout::{
 use glam::{Vec4, Vec4Swizzles};
 
 use crate::caster_position::scaled_position;
-use crate::image_plane::{clip_of_delta, clip_of_position, clockwise, counter_clockwise, image_direction};
+use crate::image_plane::{clip_from_object, clockwise, counter_clockwise, image_direction};
 use crate::view_depth::{q_of_clip, smoothie_width};
 
 /// The stage `extrude_edges`: silhouette edges to quads.
@@ -58,18 +58,18 @@ impl ExtrudeEdges<'_> {
     fn extrude(&mut self, silhouette: &SilhouetteEdge) -> Option<Quad> {
         // Project.
         let caster = &self.casters[silhouette.caster as usize];
-        let light = &self.caster_lights[silhouette.caster as usize];
+        let clip_from_object = clip_from_object(&self.caster_lights[silhouette.caster as usize]);
         let edge = &self.edges[(caster.first_edge + silhouette.edge_id) as usize];
         let low = scaled_position(caster, self.positions, edge.low_vertex);
         let high = scaled_position(caster, self.positions, edge.high_vertex);
-        let segment = Segment {
-            low: clip_of_position(light, low),
-            high: clip_of_position(light, high),
-            delta: clip_of_delta(light, high - low),
-        };
-        let Some(direction) = image_direction(segment.low, segment.delta) else {
+        let Some(direction) = image_direction(&clip_from_object, low, high) else {
             self.counters.point_edges += 1;
             return None;
+        };
+        let segment = Segment {
+            low: clip_from_object * low.extend(1.0),
+            high: clip_from_object * high.extend(1.0),
+            delta: clip_from_object * (high - low).extend(0.0),
         };
 
         // Clip by depth first, since the width that widens the frustum depends on it.

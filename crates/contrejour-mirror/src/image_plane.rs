@@ -3,33 +3,37 @@
 use contrejour_layout::CasterLight;
 use glam::{Mat4, Vec2, Vec3, Vec4, Vec4Swizzles};
 
-/// An edge whose image is shorter than this share of the terms that it is the difference of is rounding noise.
-const POINT_TOLERANCE: f32 = 1e-7;
+/// An edge whose image is shorter than this share of what it could be at any other angle to the light projects to a
+/// point. Rounding turns edges by some 1e-7, while facing is exact: below that, direction and facing disagree.
+/// Enough above it for directions right to a hundredth of a radian, and still far below a texel.
+const POINT_TOLERANCE: f32 = 4e-6;
 
-/// Clip coordinates of a scaled position.
-pub(crate) fn clip_of_position(light: &CasterLight, position: Vec3) -> Vec4 {
-    Mat4::from_cols_array(&light.light_clip_from_object) * position.extend(1.0)
+/// Light clip space from the caster's scaled object space.
+pub(crate) fn clip_from_object(light: &CasterLight) -> Mat4 {
+    Mat4::from_cols_array(&light.light_clip_from_object)
 }
 
-/// Clip coordinates of a difference of scaled positions.
-pub(crate) fn clip_of_delta(light: &CasterLight, delta: Vec3) -> Vec4 {
-    Mat4::from_cols_array(&light.light_clip_from_object) * delta.extend(0.0)
-}
-
-/// Unit direction in which the image of `clip + t * delta` moves as `t` grows; none where the edge projects to a point.
+/// Unit direction in which the image moves from a low to a high end; none where the edge projects to a point.
 ///
 /// Derivative of `xy / w`, times `w` squared: right for any sign of `w`, also that of an end behind the light.
-pub(crate) fn image_direction(clip: Vec4, delta: Vec4) -> Option<Vec2> {
-    let ahead = delta.xy() * clip.w;
-    let drift = clip.xy() * delta.w;
-    let direction = ahead - drift;
+pub(crate) fn image_direction(clip_from_object: &Mat4, low: Vec3, high: Vec3) -> Option<Vec2> {
+    let clip = clip_from_object * low.extend(1.0);
+    let delta = clip_from_object * (high - low).extend(0.0);
+    let direction = delta.xy() * clip.w - clip.xy() * delta.w;
     let size = direction.x.abs().max(direction.y.abs());
-    let noise = POINT_TOLERANCE * (ahead.length() + drift.length());
-    if size > noise {
+    if size > POINT_TOLERANCE * longest_image(clip_from_object, clip, high - low) {
         // Divided by its size first, so that squares neither overflow nor vanish.
         return Some((direction / size).normalize());
     }
     None
+}
+
+/// A bound of the terms that a direction is the difference of, for any edge as long as `delta`.
+fn longest_image(clip_from_object: &Mat4, clip: Vec4, delta: Vec3) -> f32 {
+    let reach = clip_from_object.x_axis.abs() + clip_from_object.y_axis.abs() + clip_from_object.z_axis.abs();
+    let offset = clip.x.abs().max(clip.y.abs());
+    let length = delta.x.abs().max(delta.y.abs()).max(delta.z.abs());
+    length * (reach.x.max(reach.y) * clip.w.abs() + offset * reach.w)
 }
 
 pub(crate) fn counter_clockwise(v: Vec2) -> Vec2 {
@@ -52,33 +56,49 @@ pub(crate) fn halfway(begin: Vec2, end: Vec2) -> Vec2 {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3Swizzles;
+
     use super::*;
+
+    /// At the origin, looking down the z axis, half a right angle to each side.
+    const SPOT: Mat4 =
+        Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::new(0.0, 0.0, -1.0, -1.0), Vec4::new(0.0, 0.0, -1.0, 0.0));
 
     #[test]
     fn direction_does_not_depend_on_the_side_of_the_light() {
         // The same line seen from an end in front of the light and from one behind it.
-        let delta = Vec4::new(0.5, -1.0, 0.0, -3.0);
-        let front = Vec4::new(1.0, 1.0, 0.0, 2.0);
-        let behind = front + delta;
-        let from_front = image_direction(front, delta).expect("the line is no point");
-        let from_behind = image_direction(behind, delta).expect("the line is no point");
-        assert!(behind.w < 0.0);
+        let front = Vec3::new(1.0, 1.0, -2.0);
+        let delta = Vec3::new(0.5, -1.0, 3.0);
+        let from_front = image_direction(&SPOT, front, front + delta).expect("the line is no point");
+        let from_behind = image_direction(&SPOT, front + delta, front + 2.0 * delta).expect("the line is no point");
         assert!(from_front.distance(from_behind) < 1e-6);
-        let ahead = (front + 0.01 * delta).xy() / (front + 0.01 * delta).w;
-        let image = (ahead - front.xy() / front.w).normalize();
-        assert!(from_front.distance(image) < 1e-4);
+        let image = |t: f32| {
+            let point = front + t * delta;
+            point.xy() / -point.z
+        };
+        assert!(from_front.distance((image(0.01) - image(0.0)).normalize()) < 1e-4);
     }
 
     #[test]
     fn edge_along_a_ray_is_a_point() {
-        assert_eq!(image_direction(Vec4::new(0.3, 0.7, 0.0, 1.1), 2.0 * Vec4::new(0.3, 0.7, 0.0, 1.1)), None);
-        assert_eq!(image_direction(Vec4::new(0.3, 0.7, 0.0, 1.0), Vec4::new(0.0, 0.0, 1.0, 0.0)), None);
-        assert_eq!(image_direction(Vec4::new(f32::NAN, 0.7, 0.0, 1.0), Vec4::X), None);
+        let on_ray = Vec3::new(0.3, 0.7, -1.1);
+        assert_eq!(image_direction(&SPOT, on_ray, 2.9 * on_ray), None);
+        assert_eq!(image_direction(&SPOT, Vec3::NAN, on_ray), None);
+        assert_eq!(image_direction(&SPOT, on_ray, on_ray), None);
+    }
+
+    #[test]
+    fn what_the_matrix_rounds_is_no_direction() {
+        let mut overhead = Mat4::IDENTITY;
+        overhead.z_axis.x = 1e-7;
+        assert_eq!(image_direction(&overhead, Vec3::ZERO, Vec3::Z), None);
+        overhead.z_axis.x = 1e-5;
+        assert_eq!(image_direction(&overhead, Vec3::ZERO, Vec3::Z), Some(Vec2::X));
     }
 
     #[test]
     fn tiny_edges_have_directions() {
-        let direction = image_direction(Vec4::new(0.0, 0.0, 0.0, 1.0), Vec4::new(3e-30, 4e-30, 0.0, 0.0));
+        let direction = image_direction(&Mat4::IDENTITY, Vec3::ZERO, Vec3::new(3e-30, 4e-30, 0.0));
         assert!(direction.expect("the edge is no point").distance(Vec2::new(0.6, 0.8)) < 1e-6);
     }
 
