@@ -21,7 +21,13 @@ fn fragment_visibility(@builtin(position) pixel: vec4f) -> @location(0) f32 {
     let size = vec2i(textureDimensions(eye_depth));
     let right = shorter_step(position_world, pixel.xy, vec2f(1.0, 0.0), size);
     let down = shorter_step(position_world, pixel.xy, vec2f(0.0, 1.0), size);
-    let normal_world = normalize(cross(down, right));
+    let across = cross(down, right);
+    let area = length(across);
+    // A pixel whose neighbours give no plane has no normal, and so no normal offset.
+    var normal_world = vec3f(0.0);
+    if area > 0.0 {
+        normal_world = across / area;
+    }
     let visibility = contrejour_visibility(position_world, normal_world);
     return select(visibility, 1.0, depth == eye_view.background_depth);
 }

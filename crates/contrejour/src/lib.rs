@@ -1,1 +1,68 @@
 //! Exact silhouettes and smoothie soft shadows of any triangle mesh, found on the GPU with wgpu.
+//!
+//! contrejour finds the silhouette of any triangle mesh (closed, open, badly wound, non-manifold) in compute shaders and
+//! turns it into soft shadows that are hard at the contact and soft far away. No silhouette work is left on the CPU: a
+//! frame uploads light and instance records, and draws are indirect. The caller owns device, queue, encoder and
+//! submission.
+//!
+//! ```no_run
+//! use std::sync::Arc;
+//! use contrejour::prelude::*;
+//! use contrejour::glam::{DMat4, DVec3};
+//! use contrejour::wgpu;
+//!
+//! # fn frame(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), Box<dyn std::error::Error>> {
+//! // Once: a mesh with its topology, and the shadows of one light.
+//! let positions = [[-1.0, 1.0, -1.0], [1.0, 1.0, -1.0], [0.0, 1.0, 1.0]];
+//! let mesh = TopologyAwareMesh::build(&positions, &[[0, 2, 1]], &BuildOptions::default())?;
+//! let mut shadows = Shadows::new(device, &ShadowOptions::default())?;
+//! let mesh = shadows.add_mesh(Arc::new(mesh))?;
+//!
+//! // Each frame: say where light and casters are, and record into your own encoder.
+//! let light = Light {
+//!     kind: LightKind::Spot {
+//!         position: DVec3::new(2.0, 5.0, 1.0),
+//!         target: DVec3::ZERO,
+//!         cone_angle: 0.9,
+//!         radius: 0.2,
+//!         near: 1.0,
+//!         far: 12.0,
+//!     },
+//!     color: [1.0; 3],
+//! };
+//! let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
+//! shadows.prepare(device, queue, &FrameInput { light: &light, casters: &[caster] })?;
+//! let mut encoder = device.create_command_encoder(&Default::default());
+//! shadows.encode(&mut encoder, &mut Untimed);
+//!
+//! // In your shader: `contrejour_visibility(position_world, normal_world)`, at a bind group that you name.
+//! let receiver_wgsl = shadows.visibility_wgsl(2);
+//! let bind_group = shadows.visibility_bind_group();
+//! # let _ = (receiver_wgsl, bind_group);
+//! queue.submit([encoder.finish()]);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! | Crate | What it holds |
+//! | --- | --- |
+//! | [`mesh`] | triangles in; welded, diagnosed, GPU-ready topology out |
+//! | [`plan`] | lights, settings, light views, the frame plan |
+//! | [`gpu`] | the stages and passes on a wgpu device |
+//! | [`layout`] | the bytes that Rust and WGSL share, and the table of conventions |
+
+pub use contrejour_gpu as gpu;
+pub use contrejour_layout as layout;
+pub use contrejour_mesh as mesh;
+pub use contrejour_plan as plan;
+pub use glam;
+pub use wgpu;
+
+/// What most users need.
+pub mod prelude {
+    pub use contrejour_gpu::{
+        CasterInput, EyeInput, FrameInput, MeshHandle, PassTimer, Positions, ShadowOptions, Shadows, Untimed,
+    };
+    pub use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
+    pub use contrejour_plan::{DepthBias, Light, LightKind, Outputs, ShadowSettings, SmoothieWidth, Technique};
+}

@@ -1,0 +1,99 @@
+//! A compute stage on the device: its pipeline, its bind group, its dispatch.
+
+use contrejour_layout::{DispatchArgs, MAX_GROUPS_X};
+use contrejour_plan::{BufferKind, Stage, ViewCounts};
+
+use crate::resources::{Buffers, binding_type};
+use crate::stages::{ComputeStage, Dispatch};
+use crate::timer::PassTimer;
+
+/// The pipeline of a stage.
+#[derive(Debug)]
+pub(crate) struct StagePipeline {
+    description: &'static ComputeStage,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+impl StagePipeline {
+    pub fn new(device: &wgpu::Device, description: &'static ComputeStage) -> Self {
+        let name = description.stage.name();
+        let entries: Vec<_> = description
+            .stage
+            .buffers()
+            .iter()
+            .zip(0..)
+            .map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
+                binding,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: binding_type(*kind, !description.writes.contains(kind)),
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            })
+            .collect();
+        let layout =
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(name), entries: &entries });
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(name),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(name),
+            source: wgpu::ShaderSource::Wgsl(description.wgsl.into()),
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(name),
+            layout: Some(&pipeline_layout),
+            module: &module,
+            entry_point: Some(name),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        Self { description, layout, pipeline }
+    }
+
+    pub fn stage(&self) -> Stage {
+        self.description.stage
+    }
+
+    pub fn bind(&self, device: &wgpu::Device, buffers: &Buffers) -> wgpu::BindGroup {
+        buffers.bind(device, self.stage().name(), &self.layout, self.stage().buffers(), None)
+    }
+
+    /// Records the stage as a pass of its own, so that a timer sees it alone.
+    pub fn encode<T: PassTimer>(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        bind_group: &wgpu::BindGroup,
+        buffers: &Buffers,
+        counts: &ViewCounts,
+        timer: &mut T,
+    ) {
+        let name = self.stage().name();
+        let query = timer.begin(name, encoder);
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(name),
+                timestamp_writes: T::compute_writes(&query),
+            });
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, bind_group, &[]);
+            match self.description.dispatch {
+                Dispatch::Items(kind) => {
+                    let groups = if kind == BufferKind::EdgeItems { counts.edge_items } else { counts.face_items };
+                    pass.dispatch_workgroups(groups.min(MAX_GROUPS_X), groups.div_ceil(MAX_GROUPS_X), 1);
+                }
+                Dispatch::Once => pass.dispatch_workgroups(1, 1, 1),
+                Dispatch::Indirect(kind, index) => {
+                    let offset = u64::from(index) * size_of::<DispatchArgs>() as u64;
+                    pass.dispatch_workgroups_indirect(buffers.get(kind), offset);
+                }
+            }
+        }
+        timer.end(query, encoder);
+    }
+}

@@ -1,0 +1,192 @@
+//! A raster pass over a light view's maps on the device.
+
+use contrejour_layout::{BLOCK_SIZE, DrawArgs};
+use contrejour_plan::{BufferKind, EntryPoints, FramePlan, Pass, PipelinePlan, TextureKind, ViewCounts};
+
+use crate::passes::{ClearColor, DrawCount, MapPass};
+use crate::resources::{Buffers, Textures, UNFILTERED_FLOAT, binding_type, format};
+use crate::timer::PassTimer;
+
+/// The pipelines of a pass, one for each of its draws.
+#[derive(Debug)]
+pub(crate) struct MapPipeline {
+    description: &'static MapPass,
+    layout: wgpu::BindGroupLayout,
+    pipelines: Vec<wgpu::RenderPipeline>,
+}
+
+/// The buffers that a pass binds: what it draws by is not bound.
+fn bound_buffers(pass: Pass) -> Vec<BufferKind> {
+    pass.buffers().iter().copied().filter(|kind| *kind != BufferKind::DrawArgs).collect()
+}
+
+impl MapPipeline {
+    pub fn new(device: &wgpu::Device, description: &'static MapPass, plan: &FramePlan) -> Self {
+        let name = description.pass.name();
+        let layout = bind_group_layout(device, description);
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(name),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(name),
+            source: wgpu::ShaderSource::Wgsl(description.wgsl.into()),
+        });
+        let targets = description.color.map(|target| {
+            Some(wgpu::ColorTargetState {
+                format: format(target.texture),
+                blend: target.minimum.then_some(wgpu::BlendState { color: MINIMUM, alpha: MINIMUM }),
+                write_mask: wgpu::ColorWrites::ALL,
+            })
+        });
+        let depth_stencil = description.depth.map(|target| wgpu::DepthStencilState {
+            format: format(target.texture),
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        });
+        let pipeline = |planned: &PipelinePlan| {
+            let EntryPoints::Raster { pass, vertex, fragment } = planned.entry_points else { return None };
+            let compilation_options =
+                wgpu::PipelineCompilationOptions { constants: &planned.constants, ..Default::default() };
+            (pass == description.pass).then(|| {
+                device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                    label: Some(name),
+                    layout: Some(&pipeline_layout),
+                    vertex: wgpu::VertexState {
+                        module: &module,
+                        entry_point: Some(vertex),
+                        compilation_options: compilation_options.clone(),
+                        buffers: &[],
+                    },
+                    primitive: wgpu::PrimitiveState::default(),
+                    depth_stencil: depth_stencil.clone(),
+                    multisample: wgpu::MultisampleState::default(),
+                    fragment: Some(wgpu::FragmentState {
+                        module: &module,
+                        entry_point: Some(fragment),
+                        compilation_options,
+                        targets: targets.as_slice(),
+                    }),
+                    multiview_mask: None,
+                    cache: None,
+                })
+            })
+        };
+        let pipelines = plan.pipelines.iter().filter_map(pipeline).collect();
+        Self { description, layout, pipelines }
+    }
+
+    pub fn pass(&self) -> Pass {
+        self.description.pass
+    }
+
+    pub fn bind(&self, device: &wgpu::Device, buffers: &Buffers, textures: &Textures) -> wgpu::BindGroup {
+        let kinds = bound_buffers(self.pass());
+        let shadow_depth =
+            self.description.reads_shadow_depth.then(|| (kinds.len() as u32, textures.view(TextureKind::ShadowDepth)));
+        buffers.bind(device, self.pass().name(), &self.layout, &kinds, shadow_depth)
+    }
+
+    pub fn encode<T: PassTimer>(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        bind_group: &wgpu::BindGroup,
+        (buffers, textures): (&Buffers, &Textures),
+        (counts, far_depth): (&ViewCounts, f32),
+        timer: &mut T,
+    ) {
+        let name = self.description.pass.name();
+        let query = timer.begin(name, encoder);
+        {
+            let color = self.description.color.map(|target| {
+                Some(wgpu::RenderPassColorAttachment {
+                    view: textures.view(target.texture),
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(clear_color(target.clear, far_depth)),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })
+            });
+            let depth = self.description.depth.map(|target| wgpu::RenderPassDepthStencilAttachment {
+                view: textures.view(target.texture),
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: if target.is_kept { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard },
+                }),
+                stencil_ops: None,
+            });
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(name),
+                color_attachments: color.as_slice(),
+                depth_stencil_attachment: depth,
+                timestamp_writes: T::render_writes(&query),
+                occlusion_query_set: None,
+                multiview_mask: None,
+            });
+            pass.set_bind_group(0, bind_group, &[]);
+            for (count, pipeline) in self.description.draws.iter().zip(&self.pipelines) {
+                pass.set_pipeline(pipeline);
+                match *count {
+                    DrawCount::FaceItems => pass.draw(0..counts.face_items * BLOCK_SIZE * 3, 0..1),
+                    DrawCount::Indirect(index) => {
+                        let offset = u64::from(index) * size_of::<DrawArgs>() as u64;
+                        pass.draw_indirect(buffers.get(BufferKind::DrawArgs), offset);
+                    }
+                }
+            }
+        }
+        timer.end(query, encoder);
+    }
+}
+
+const MINIMUM: wgpu::BlendComponent = wgpu::BlendComponent {
+    src_factor: wgpu::BlendFactor::One,
+    dst_factor: wgpu::BlendFactor::One,
+    operation: wgpu::BlendOperation::Min,
+};
+
+/// Alpha of a texel without a smoothie.
+const LIT: f64 = 1.0;
+
+fn clear_color(clear: ClearColor, far_depth: f32) -> wgpu::Color {
+    let far_depth = f64::from(far_depth);
+    let (r, g) = match clear {
+        ClearColor::FarDepth => (far_depth, 0.0),
+        ClearColor::Lit => (LIT, 0.0),
+        ClearColor::FarDepthAndLit => (far_depth, LIT),
+    };
+    wgpu::Color { r, g, b: 0.0, a: 0.0 }
+}
+
+fn bind_group_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::BindGroupLayout {
+    let kinds = bound_buffers(description.pass);
+    let buffers = kinds.iter().zip(0..).map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: match kind {
+            BufferKind::LightView => wgpu::ShaderStages::VERTEX_FRAGMENT,
+            _ => wgpu::ShaderStages::VERTEX,
+        },
+        ty: wgpu::BindingType::Buffer {
+            ty: binding_type(*kind, true),
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    });
+    let shadow_depth = description.reads_shadow_depth.then_some(wgpu::BindGroupLayoutEntry {
+        binding: kinds.len() as u32,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: UNFILTERED_FLOAT,
+        count: None,
+    });
+    let entries: Vec<_> = buffers.chain(shadow_depth).collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(description.pass.name()),
+        entries: &entries,
+    })
+}

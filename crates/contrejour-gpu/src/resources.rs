@@ -1,0 +1,159 @@
+//! Buffers and textures of a light view, made exactly as the frame plan lists them.
+
+use std::collections::BTreeMap;
+
+use contrejour_plan::{BufferKind, FramePlan, TextureFormat, TextureKind};
+
+/// A texture that shaders load from without a sampler.
+pub(crate) const UNFILTERED_FLOAT: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+/// The buffers that the plan lists.
+#[derive(Debug, Default)]
+pub(crate) struct Buffers {
+    by_kind: BTreeMap<BufferKind, wgpu::Buffer>,
+}
+
+impl Buffers {
+    /// Makes what the plan lists and does not exist in that size, drops what it does not list; returns what was made.
+    pub fn follow(&mut self, device: &wgpu::Device, plan: &FramePlan) -> Vec<BufferKind> {
+        self.by_kind.retain(|kind, buffer| plan.buffer(*kind).is_some_and(|listed| listed.bytes == buffer.size()));
+        let mut made = Vec::new();
+        for listed in &plan.buffers {
+            self.by_kind.entry(listed.kind).or_insert_with(|| {
+                made.push(listed.kind);
+                device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some(listed.kind.name()),
+                    size: listed.bytes,
+                    usage: usage(listed.kind),
+                    mapped_at_creation: false,
+                })
+            });
+        }
+        made
+    }
+
+    pub fn find(&self, kind: BufferKind) -> Option<&wgpu::Buffer> {
+        self.by_kind.get(&kind)
+    }
+
+    /// A buffer that the plan lists, since it lists a stage that binds it.
+    ///
+    /// # Panics
+    ///
+    /// When the plan lists a stage without its buffers: a defect of the plan, which its tests rule out.
+    pub fn get(&self, kind: BufferKind) -> &wgpu::Buffer {
+        match self.find(kind) {
+            Some(buffer) => buffer,
+            None => panic!("the frame plan lists no buffer `{}` for a stage that binds it", kind.name()),
+        }
+    }
+
+    /// A bind group of buffers in the order of their bindings, and a texture.
+    pub fn bind(
+        &self,
+        device: &wgpu::Device,
+        label: &str,
+        layout: &wgpu::BindGroupLayout,
+        kinds: &[BufferKind],
+        texture: Option<(u32, &wgpu::TextureView)>,
+    ) -> wgpu::BindGroup {
+        let buffers = kinds
+            .iter()
+            .zip(0..)
+            .map(|(kind, binding)| wgpu::BindGroupEntry { binding, resource: self.get(*kind).as_entire_binding() });
+        let textures = texture.map(|(binding, view)| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::TextureView(view),
+        });
+        let entries: Vec<_> = buffers.chain(textures).collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+    }
+}
+
+/// How shaders see a buffer.
+pub(crate) fn binding_type(kind: BufferKind, read_only: bool) -> wgpu::BufferBindingType {
+    match kind {
+        BufferKind::LightView | BufferKind::ReceiverView => wgpu::BufferBindingType::Uniform,
+        _ => wgpu::BufferBindingType::Storage { read_only },
+    }
+}
+
+/// The format of a texture that the plan lists.
+pub(crate) fn format(kind: TextureKind) -> wgpu::TextureFormat {
+    match kind.format() {
+        TextureFormat::R32Float => wgpu::TextureFormat::R32Float,
+        TextureFormat::R16Float => wgpu::TextureFormat::R16Float,
+        TextureFormat::Rg32Float => wgpu::TextureFormat::Rg32Float,
+        TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
+    }
+}
+
+/// Every buffer can be read back by tools and tests.
+fn usage(kind: BufferKind) -> wgpu::BufferUsages {
+    let common = wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+    common
+        | match kind {
+            BufferKind::LightView | BufferKind::ReceiverView => wgpu::BufferUsages::UNIFORM,
+            BufferKind::RefineArgs | BufferKind::ExtrudeArgs | BufferKind::DrawArgs => {
+                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT
+            }
+            _ => wgpu::BufferUsages::STORAGE,
+        }
+}
+
+/// The textures that the plan lists.
+#[derive(Debug, Default)]
+pub(crate) struct Textures {
+    by_kind: BTreeMap<TextureKind, (wgpu::Texture, wgpu::TextureView)>,
+}
+
+impl Textures {
+    /// Makes what the plan lists and does not exist in that size, drops what it does not list; says whether anything
+    /// changed.
+    pub fn follow(&mut self, device: &wgpu::Device, plan: &FramePlan) -> bool {
+        let count = self.by_kind.len();
+        self.by_kind
+            .retain(|kind, (texture, _)| plan.texture(*kind).is_some_and(|listed| listed.size == texture.width()));
+        let mut changed = self.by_kind.len() != count;
+        for listed in &plan.textures {
+            self.by_kind.entry(listed.kind).or_insert_with(|| {
+                changed = true;
+                let texture = device.create_texture(&wgpu::TextureDescriptor {
+                    label: Some(listed.kind.name()),
+                    size: wgpu::Extent3d { width: listed.size, height: listed.size, depth_or_array_layers: 1 },
+                    mip_level_count: 1,
+                    sample_count: 1,
+                    dimension: wgpu::TextureDimension::D2,
+                    format: format(listed.kind),
+                    usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                        | wgpu::TextureUsages::TEXTURE_BINDING
+                        | wgpu::TextureUsages::COPY_SRC,
+                    view_formats: &[],
+                });
+                let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+                (texture, view)
+            });
+        }
+        changed
+    }
+
+    pub fn find(&self, kind: TextureKind) -> Option<&wgpu::Texture> {
+        self.by_kind.get(&kind).map(|(texture, _)| texture)
+    }
+
+    /// The view of a texture that the plan lists, since it lists a pass that uses it.
+    ///
+    /// # Panics
+    ///
+    /// When the plan lists a pass without its textures: a defect of the plan, which its tests rule out.
+    pub fn view(&self, kind: TextureKind) -> &wgpu::TextureView {
+        match self.by_kind.get(&kind) {
+            Some((_, view)) => view,
+            None => panic!("the frame plan lists no texture `{}` for a pass that uses it", kind.name()),
+        }
+    }
+}

@@ -1,0 +1,405 @@
+//! The one object that a renderer talks to.
+
+use std::sync::Arc;
+
+use contrejour_layout::Counters;
+use contrejour_mesh::TopologyAwareMesh;
+use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, Light, Outputs, ShadowSettings, TextureKind};
+
+use crate::casters::{CasterInput, CasterSet};
+use crate::draft::{FrameDraft, LiveCopy, Records};
+use crate::error::{AddMeshError, CountersError, NewShadowsError, PrepareError};
+use crate::frame::{Frame, Made};
+use crate::pool::{MeshHandle, MeshPool};
+use crate::readback::CounterReadback;
+use crate::timer::PassTimer;
+use crate::visibility::{EyeInput, Visibility, VisibilityKind};
+
+/// What a [`Shadows`] object is made for.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowOptions {
+    /// Technique, map size, bias. Default: the preset `medium`.
+    pub settings: ShadowSettings,
+    /// What the caller wants of a frame. Default: maps for the visibility function.
+    pub outputs: Outputs,
+    /// Format of the target of [`Shadows::encode_visibility`]. Default: `R8Unorm`.
+    pub visibility_format: wgpu::TextureFormat,
+}
+
+impl Default for ShadowOptions {
+    fn default() -> Self {
+        Self {
+            settings: ShadowSettings::default(),
+            outputs: Outputs::default(),
+            visibility_format: wgpu::TextureFormat::R8Unorm,
+        }
+    }
+}
+
+/// What a frame is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameInput<'a> {
+    /// The light.
+    pub light: &'a Light,
+    /// The casters, in an order that the caller keeps as long as they stay.
+    pub casters: &'a [CasterInput<'a>],
+}
+
+/// The maps of the light's view.
+#[derive(Clone, Copy, Debug)]
+pub struct Maps<'a> {
+    /// Linear depth of the nearest caster, `R32Float`; the view's farthest depth where there is none.
+    pub shadow_depth: Option<&'a wgpu::Texture>,
+    /// Nearest smoothie depth in clip z, `Depth32Float`; where the buffer is in two textures.
+    pub smoothie_depth: Option<&'a wgpu::Texture>,
+    /// Least smoothie alpha, `R16Float`; where the buffer is in two textures.
+    pub smoothie_alpha: Option<&'a wgpu::Texture>,
+    /// Nearest linear smoothie depth and least alpha, `Rg32Float`; where the buffer is in one texture.
+    pub smoothie_buffer: Option<&'a wgpu::Texture>,
+}
+
+/// What is known about the frames so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameStats {
+    /// Bytes that the last [`prepare`](Shadows::prepare) uploaded for the frame: light and instance records.
+    pub upload_bytes: u64,
+    /// Bytes that it uploaded once because meshes or casters came or went.
+    pub set_up_bytes: u64,
+    /// Frames whose quads or corners did not fit, as far as their counters have arrived.
+    pub overflow_frames: u64,
+    /// Times that the library waited for the device: only [`wait_for_counters`](Shadows::wait_for_counters) does.
+    pub readback_waits: u64,
+    /// Casters of the last frame whose matrix is singular: they cast nothing.
+    pub singular_casters: u32,
+    /// Whether the last frame was like the one before, so that its maps stand and no pass was recorded.
+    pub is_unchanged: bool,
+    /// Counters of the latest frame that has arrived.
+    pub counters: Option<Counters>,
+}
+
+/// Silhouettes and shadow maps of one light.
+#[derive(Debug)]
+pub struct Shadows {
+    options: ShadowOptions,
+    device_facts: DeviceFacts,
+    pool: MeshPool,
+    frame: Frame,
+    plan: Option<FramePlan>,
+    casters: CasterSet,
+    capacity: Capacity,
+    records: Records,
+    copies: Vec<LiveCopy>,
+    readback: CounterReadback,
+    visibility: Option<Visibility>,
+    stats: FrameStats,
+    latest_is_complete: bool,
+    /// Whether the maps hold, or will hold after submission, what `records` say.
+    is_encoded: bool,
+}
+
+impl Shadows {
+    /// Features that the library can't do without: none.
+    pub fn required_features() -> wgpu::Features {
+        wgpu::Features::empty()
+    }
+
+    /// Features that the library uses where the device was created with them: blending of 32-bit floats saves a pass.
+    pub fn optional_features() -> wgpu::Features {
+        wgpu::Features::FLOAT32_BLENDABLE
+    }
+
+    /// Limits that the library needs: WebGPU's defaults.
+    pub fn required_limits() -> wgpu::Limits {
+        wgpu::Limits::default()
+    }
+
+    /// Makes an object for one light. Nothing that depends on a scene is created yet.
+    ///
+    /// # Errors
+    ///
+    /// The device allows less than WebGPU's defaults, or the settings are out of range.
+    pub fn new(device: &wgpu::Device, options: &ShadowOptions) -> Result<Self, NewShadowsError> {
+        let available = device.limits().max_storage_buffers_per_shader_stage;
+        let needed = Self::required_limits().max_storage_buffers_per_shader_stage;
+        if available < needed {
+            return Err(NewShadowsError::Limits { available, needed });
+        }
+        let device_facts = device_facts(device);
+        options.settings.validate()?;
+        Ok(Self {
+            options: *options,
+            device_facts,
+            pool: MeshPool::default(),
+            frame: Frame::default(),
+            plan: None,
+            casters: CasterSet::default(),
+            capacity: Capacity::default(),
+            records: Records::default(),
+            copies: Vec::new(),
+            readback: CounterReadback::new(device),
+            visibility: None,
+            stats: FrameStats::default(),
+            latest_is_complete: false,
+            is_encoded: false,
+        })
+    }
+
+    /// Adds a mesh. It is kept, and goes to the device when a frame first needs it there.
+    ///
+    /// # Errors
+    ///
+    /// All meshes together are more than 32 bits can index.
+    pub fn add_mesh(&mut self, mesh: Arc<TopologyAwareMesh>) -> Result<MeshHandle, AddMeshError> {
+        self.pool.add(mesh).map_err(|words| AddMeshError::PoolTooLarge { words })
+    }
+
+    /// Prepares a frame: follows the frame plan, uploads the records of light and casters.
+    ///
+    /// What the plan newly lists is created here and what it no longer lists is dropped; a frame in which only lights
+    /// and casters move creates nothing and uploads their records alone. Lists that an earlier frame found too short
+    /// grow here.
+    ///
+    /// # Errors
+    ///
+    /// The light or a caster is not valid, or the device can't hold what the frame needs; then nothing has changed.
+    pub fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        input: &FrameInput<'_>,
+    ) -> Result<(), PrepareError> {
+        self.collect_counters(device);
+        let draft = FrameDraft::new(input, &self.pool, &self.options, &self.device_facts, self.capacity)?;
+        let set_up_bytes = self.follow(device, queue, &draft);
+        self.upload(queue, draft, set_up_bytes);
+        Ok(())
+    }
+
+    /// Records the frame: compute stages, then the passes that fill the maps. Nothing is recorded where the frame is
+    /// like the one before and that one was complete, since its maps stand.
+    ///
+    /// The encoder's commands must be submitted, or dropped together with this object.
+    pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
+        let Some(plan) = self.plan.as_ref().filter(|_| !self.stats.is_unchanged) else { return };
+        for copy in &self.copies {
+            let target = self.frame.buffers.get(BufferKind::Positions);
+            encoder.copy_buffer_to_buffer(&copy.source, copy.source_offset, target, copy.target_offset, copy.size);
+        }
+        self.is_encoded = true;
+        self.frame.encode(encoder, &plan.counts, self.records.light_view.far_depth, timer);
+        if let Some(counters) = self.frame.buffers.find(BufferKind::Counters) {
+            self.readback.copy(encoder, counters, plan.capacity());
+        }
+    }
+
+    /// Records the full-screen visibility of a deferred renderer's pixels into `eye.target`.
+    ///
+    /// # Panics
+    ///
+    /// Before the first [`prepare`](Self::prepare).
+    pub fn encode_visibility<T: PassTimer>(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        eye: &EyeInput<'_>,
+        timer: &mut T,
+    ) {
+        let format = self.options.visibility_format;
+        let Some(visibility) = &mut self.visibility else { panic!("{NOT_PREPARED}") };
+        let (pass, bind_group) = visibility.pass(device, format);
+        pass.encode((device, queue), encoder, eye, bind_group, timer);
+    }
+
+    /// Which maps the visibility function reads. A later [`prepare`](Self::prepare) changes it only where smoothies
+    /// come or go: the light gains or loses its size, the first caster comes or the last one goes.
+    ///
+    /// # Panics
+    ///
+    /// Before the first [`prepare`](Self::prepare), and where the options want no maps.
+    pub fn visibility_kind(&self) -> VisibilityKind {
+        self.visibility().kind
+    }
+
+    /// WGSL text with the function `contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32` and its
+    /// bindings in the given bind group; append it to a shader. All its names start with `contrejour`, but for the
+    /// struct `ReceiverView`. Normals have unit length; 0 is dark, 1 is lit; points outside the light's maps are lit.
+    ///
+    /// # Panics
+    ///
+    /// As [`visibility_kind`](Self::visibility_kind).
+    pub fn visibility_wgsl(&self, group: u32) -> String {
+        format!("const CONTREJOUR_GROUP = {group}u;\n{}", self.visibility_kind().function_wgsl())
+    }
+
+    /// Layout of [`visibility_bind_group`](Self::visibility_bind_group).
+    ///
+    /// # Panics
+    ///
+    /// As [`visibility_kind`](Self::visibility_kind).
+    pub fn visibility_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.visibility().layout
+    }
+
+    /// The bind group of the visibility function. A later [`prepare`](Self::prepare) may replace it.
+    ///
+    /// # Panics
+    ///
+    /// As [`visibility_kind`](Self::visibility_kind).
+    pub fn visibility_bind_group(&self) -> &wgpu::BindGroup {
+        &self.visibility().bind_group
+    }
+
+    fn visibility(&self) -> &Visibility {
+        match &self.visibility {
+            Some(visibility) => visibility,
+            None => panic!("{NOT_PREPARED}"),
+        }
+    }
+
+    /// The maps themselves, after the first [`prepare`](Self::prepare).
+    pub fn maps(&self) -> Maps<'_> {
+        let find = |kind| self.frame.textures.find(kind);
+        Maps {
+            shadow_depth: find(TextureKind::ShadowDepth),
+            smoothie_depth: find(TextureKind::SmoothieDepth),
+            smoothie_alpha: find(TextureKind::SmoothieAlpha),
+            smoothie_buffer: find(TextureKind::SmoothieBuffer),
+        }
+    }
+
+    /// A buffer of the frame, where the plan lists it: the silhouette list and its counters stay here for stages of
+    /// the caller's. A later [`prepare`](Self::prepare) may replace it.
+    pub fn buffer(&self, kind: BufferKind) -> Option<&wgpu::Buffer> {
+        self.frame.buffers.find(kind)
+    }
+
+    /// The plan of the last prepared frame.
+    pub fn plan(&self) -> Option<&FramePlan> {
+        self.plan.as_ref()
+    }
+
+    /// What is known so far.
+    pub fn stats(&self) -> FrameStats {
+        self.stats
+    }
+
+    /// Whether the latest counted frame had room for all its quads and corners. While it had not, prepare and encode
+    /// once more.
+    pub fn is_complete(&self) -> bool {
+        let counts_nothing = self.frame.buffers.find(BufferKind::Counters).is_none();
+        self.plan.is_some() && (counts_nothing || self.latest_is_complete)
+    }
+
+    /// Waits until the submitted frames are done and returns the counters of the last one. For tools and tests: a
+    /// frame loop has no need to wait.
+    ///
+    /// # Errors
+    ///
+    /// The device was lost, or no frame that counts was submitted.
+    pub fn wait_for_counters(&mut self, device: &wgpu::Device) -> Result<Counters, CountersError> {
+        self.stats.readback_waits += 1;
+        device.poll(wgpu::PollType::wait_indefinitely())?;
+        self.collect_counters(device);
+        self.stats.counters.ok_or(CountersError::NoFrame)
+    }
+
+    /// Takes the counters that have arrived: counts overflows and grows what was too short.
+    fn collect_counters(&mut self, device: &wgpu::Device) {
+        // Drives callbacks, waits for nothing; a lost device shows elsewhere.
+        let _ = device.poll(wgpu::PollType::Poll);
+        for frame in self.readback.arrived() {
+            if !frame.capacity.holds(&frame.counters) {
+                self.stats.overflow_frames += 1;
+                let grown = frame.capacity.grown_for(&frame.counters);
+                self.capacity.quads = self.capacity.quads.max(grown.quads);
+                self.capacity.corners = self.capacity.corners.max(grown.corners);
+            }
+            self.stats.counters = Some(frame.counters);
+            self.latest_is_complete = frame.capacity.holds(&frame.counters);
+        }
+    }
+
+    /// Makes and fills what the draft's plan lists; returns the bytes that it uploaded.
+    fn follow(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, draft: &FrameDraft) -> u64 {
+        let has_changed = self.plan.as_ref() != Some(&draft.plan);
+        let has_new_casters = self.casters != draft.casters;
+        if !has_changed && !has_new_casters {
+            return 0;
+        }
+        let made = self.frame.follow(device, &draft.plan);
+        self.follow_visibility(device, &draft.plan, &made);
+
+        let mut bytes = 0;
+        let mut write = |kind: BufferKind, offset: u64, data: &[u8]| {
+            if let Some(buffer) = self.frame.buffers.find(kind).filter(|_| !data.is_empty()) {
+                queue.write_buffer(buffer, offset, data);
+                bytes += data.len() as u64;
+            }
+        };
+        for &kind in &made.buffers {
+            self.pool.fill(kind, |offset, data| write(kind, offset, data));
+        }
+        let table = draft.casters.table(&self.pool);
+        write(BufferKind::Casters, 0, bytemuck::cast_slice(&table.casters));
+        write(BufferKind::FaceItems, 0, bytemuck::cast_slice(&table.face_items));
+        write(BufferKind::EdgeItems, 0, bytemuck::cast_slice(&table.edge_items));
+        bytes
+    }
+
+    fn follow_visibility(&mut self, device: &wgpu::Device, plan: &FramePlan, made: &Made) {
+        let Frame { buffers, textures, .. } = &self.frame;
+        let kind = VisibilityKind::of(plan);
+        if self.visibility.as_ref().map(|visibility| visibility.kind) != kind {
+            self.visibility = kind.map(|kind| Visibility::new(device, kind, buffers, textures));
+        } else if let Some(visibility) = &mut self.visibility
+            && (made.textures || made.buffers.contains(&BufferKind::ReceiverView))
+        {
+            visibility.bind_again(device, buffers, textures);
+        }
+    }
+
+    /// Uploads the frame's records and takes the draft over.
+    fn upload(&mut self, queue: &wgpu::Queue, draft: FrameDraft, set_up_bytes: u64) {
+        let FrameDraft { plan, casters, records, copies } = draft;
+        let is_same = self.plan.as_ref() == Some(&plan)
+            && set_up_bytes == 0
+            && copies.is_empty()
+            && self.records == records
+            && self.casters == casters;
+        self.stats.is_unchanged = is_same && self.is_encoded;
+        self.stats.upload_bytes = 0;
+        self.stats.set_up_bytes = set_up_bytes;
+        self.stats.singular_casters = plan.singular_casters;
+        if !is_same {
+            let records: [(BufferKind, &[u8]); 3] = [
+                (BufferKind::CasterLights, bytemuck::cast_slice(&records.caster_lights)),
+                (BufferKind::LightView, bytemuck::bytes_of(&records.light_view)),
+                (BufferKind::ReceiverView, bytemuck::bytes_of(&records.receiver_view)),
+            ];
+            for (kind, bytes) in records {
+                if let Some(buffer) = self.frame.buffers.find(kind).filter(|_| !bytes.is_empty()) {
+                    queue.write_buffer(buffer, 0, bytes);
+                    self.stats.upload_bytes += bytes.len() as u64;
+                }
+            }
+            self.is_encoded = false;
+        }
+        self.plan = Some(plan);
+        self.casters = casters;
+        self.records = records;
+        self.copies = copies;
+    }
+}
+
+fn device_facts(device: &wgpu::Device) -> DeviceFacts {
+    let limits = device.limits();
+    DeviceFacts {
+        float32_blendable: device.features().contains(wgpu::Features::FLOAT32_BLENDABLE),
+        max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
+        max_buffer_size: limits.max_buffer_size,
+        max_texture_dimension_2d: limits.max_texture_dimension_2d,
+    }
+}
+
+const NOT_PREPARED: &str = "no maps yet: call `prepare` first, with options that want maps";

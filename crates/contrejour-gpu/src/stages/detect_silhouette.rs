@@ -1,0 +1,12 @@
+use contrejour_plan::{BufferKind, Stage};
+
+use super::{ComputeStage, Dispatch};
+use crate::shaders::wgsl;
+
+/// Lit bits to the list of silhouette edges.
+pub(super) const DETECT_SILHOUETTE: ComputeStage = ComputeStage {
+    stage: Stage::DetectSilhouette,
+    wgsl: wgsl!("compute/detect_silhouette", "topology", "light", "outline", "invocation", "append", "atomic_counters"),
+    writes: &[BufferKind::Silhouettes, BufferKind::OutlineSides, BufferKind::Counters],
+    dispatch: Dispatch::Items(BufferKind::EdgeItems),
+};

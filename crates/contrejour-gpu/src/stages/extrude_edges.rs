@@ -1,0 +1,23 @@
+use contrejour_plan::{BufferKind, Stage};
+
+use super::{ComputeStage, Dispatch};
+use crate::shaders::wgsl;
+
+/// Outline edges to quads on the image plane.
+pub(super) const EXTRUDE_EDGES: ComputeStage = ComputeStage {
+    stage: Stage::ExtrudeEdges,
+    wgsl: wgsl!(
+        "compute/extrude_edges",
+        "topology",
+        "light",
+        "outline",
+        "invocation",
+        "append",
+        "atomic_counters",
+        "caster_position",
+        "image_plane",
+        "view_depth"
+    ),
+    writes: &[BufferKind::Quads, BufferKind::Counters],
+    dispatch: Dispatch::Indirect(BufferKind::ExtrudeArgs, 0),
+};

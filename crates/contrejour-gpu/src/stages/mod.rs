@@ -1,0 +1,50 @@
+//! The compute stages: one file each, named like its shader, its CPU twin and its test.
+
+mod build_corners;
+mod classify_faces;
+mod detect_silhouette;
+mod extrude_edges;
+mod refine_faces;
+mod resolve_faces;
+mod write_draw_args;
+mod write_extrude_args;
+mod write_refine_args;
+
+use contrejour_plan::{BufferKind, Stage};
+
+/// What a compute stage runs. It binds [`Stage::buffers`] in their order, from binding 0 on.
+#[derive(Clone, Copy, Debug)]
+pub struct ComputeStage {
+    /// Which stage this is; its name is the entry point.
+    pub stage: Stage,
+    /// The text of its shader module.
+    pub wgsl: &'static str,
+    /// Those of its buffers that it writes.
+    pub writes: &'static [BufferKind],
+    /// Where its number of workgroups comes from.
+    pub dispatch: Dispatch,
+}
+
+/// Where the number of workgroups of a stage comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dispatch {
+    /// One workgroup for each item of a buffer of work items.
+    Items(BufferKind),
+    /// One workgroup.
+    Once,
+    /// Arguments that an earlier stage wrote: the buffer, and which of its entries.
+    Indirect(BufferKind, u32),
+}
+
+/// All stages in the order in which a frame runs them.
+pub const ALL: [ComputeStage; 9] = [
+    classify_faces::CLASSIFY_FACES,
+    write_refine_args::WRITE_REFINE_ARGS,
+    refine_faces::REFINE_FACES,
+    resolve_faces::RESOLVE_FACES,
+    detect_silhouette::DETECT_SILHOUETTE,
+    write_extrude_args::WRITE_EXTRUDE_ARGS,
+    extrude_edges::EXTRUDE_EDGES,
+    build_corners::BUILD_CORNERS,
+    write_draw_args::WRITE_DRAW_ARGS,
+];

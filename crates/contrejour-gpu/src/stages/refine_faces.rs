@@ -1,0 +1,12 @@
+use contrejour_plan::{BufferKind, Stage};
+
+use super::{ComputeStage, Dispatch};
+use crate::shaders::wgsl;
+
+/// Undecided faces by short integers.
+pub(super) const REFINE_FACES: ComputeStage = ComputeStage {
+    stage: Stage::RefineFaces,
+    wgsl: wgsl!("compute/refine_faces", "topology", "light", "outline", "args", "invocation", "facing", "wide_integer"),
+    writes: &[BufferKind::Lit],
+    dispatch: Dispatch::Indirect(BufferKind::RefineArgs, 0),
+};

@@ -1,0 +1,21 @@
+use contrejour_plan::{BufferKind, Stage};
+
+use super::{ComputeStage, Dispatch};
+use crate::shaders::wgsl;
+
+/// Undecided faces by full integers.
+pub(super) const RESOLVE_FACES: ComputeStage = ComputeStage {
+    stage: Stage::ResolveFaces,
+    wgsl: wgsl!(
+        "compute/resolve_faces",
+        "topology",
+        "light",
+        "outline",
+        "args",
+        "invocation",
+        "facing",
+        "wide_integer"
+    ),
+    writes: &[BufferKind::Lit],
+    dispatch: Dispatch::Indirect(BufferKind::RefineArgs, 1),
+};

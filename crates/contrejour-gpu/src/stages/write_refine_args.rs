@@ -1,0 +1,12 @@
+use contrejour_plan::{BufferKind, Stage};
+
+use super::{ComputeStage, Dispatch};
+use crate::shaders::wgsl;
+
+/// Undecided faces to workgroups of the two exact tiers.
+pub(super) const WRITE_REFINE_ARGS: ComputeStage = ComputeStage {
+    stage: Stage::WriteRefineArgs,
+    wgsl: wgsl!("compute/write_refine_args", "light", "args", "invocation", "group_args"),
+    writes: &[BufferKind::RefineArgs],
+    dispatch: Dispatch::Once,
+};

@@ -1,0 +1,267 @@
+//! How receivers ask for visibility: a bind group and a WGSL function for forward renderers, a full-screen texture
+//! for deferred ones.
+
+use contrejour_layout::EyeView;
+use contrejour_plan::{BufferKind, FramePlan, Pass, TextureKind};
+
+use crate::passes;
+use crate::resources::{Buffers, Textures, UNFILTERED_FLOAT};
+use crate::timer::PassTimer;
+
+/// Which maps the visibility function reads. Where it changes, the function's text and its bind group layout do: a
+/// caller keeps one pipeline for each kind that it meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum VisibilityKind {
+    /// The shadow map alone.
+    ShadowMap,
+    /// Shadow map, smoothie depth and smoothie alpha.
+    SmoothiesSplit,
+    /// Shadow map and smoothie buffer.
+    SmoothiesPacked,
+}
+
+impl VisibilityKind {
+    /// What a frame's visibility function reads; `None` where the frame has no maps.
+    pub(crate) fn of(plan: &FramePlan) -> Option<Self> {
+        if plan.has_pass(Pass::SmoothieBuffer) {
+            Some(Self::SmoothiesPacked)
+        } else if plan.has_pass(Pass::SmoothieAlpha) {
+            Some(Self::SmoothiesSplit)
+        } else {
+            plan.has_pass(Pass::ShadowMap).then_some(Self::ShadowMap)
+        }
+    }
+
+    fn textures(self) -> &'static [TextureKind] {
+        match self {
+            Self::ShadowMap => &[TextureKind::ShadowDepth],
+            Self::SmoothiesSplit => &[TextureKind::ShadowDepth, TextureKind::SmoothieDepth, TextureKind::SmoothieAlpha],
+            Self::SmoothiesPacked => &[TextureKind::ShadowDepth, TextureKind::SmoothieBuffer],
+        }
+    }
+
+    /// The function `contrejour_visibility`; needs a constant `CONTREJOUR_GROUP` beside it.
+    pub(crate) fn function_wgsl(self) -> &'static str {
+        match self {
+            Self::ShadowMap => passes::VISIBILITY_SHADOW_MAP,
+            Self::SmoothiesSplit => passes::VISIBILITY_SMOOTHIES_SPLIT,
+            Self::SmoothiesPacked => passes::VISIBILITY_SMOOTHIES_PACKED,
+        }
+    }
+
+    fn pass_wgsl(self) -> &'static str {
+        match self {
+            Self::ShadowMap => passes::VISIBILITY_PASS_SHADOW_MAP,
+            Self::SmoothiesSplit => passes::VISIBILITY_PASS_SPLIT,
+            Self::SmoothiesPacked => passes::VISIBILITY_PASS_PACKED,
+        }
+    }
+
+    fn layout(self, device: &wgpu::Device) -> wgpu::BindGroupLayout {
+        let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+            ty,
+            count: None,
+        };
+        let textures = self.textures().iter().zip(1..).map(|(kind, binding)| match kind {
+            TextureKind::SmoothieDepth => entry(binding, DEPTH),
+            _ => entry(binding, UNFILTERED_FLOAT),
+        });
+        let entries: Vec<_> = std::iter::once(entry(0, UNIFORM)).chain(textures).collect();
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("contrejour visibility"),
+            entries: &entries,
+        })
+    }
+
+    fn bind(
+        self,
+        device: &wgpu::Device,
+        layout: &wgpu::BindGroupLayout,
+        buffers: &Buffers,
+        textures: &Textures,
+    ) -> wgpu::BindGroup {
+        let view =
+            wgpu::BindGroupEntry { binding: 0, resource: buffers.get(BufferKind::ReceiverView).as_entire_binding() };
+        let textures = self.textures().iter().zip(1..).map(|(kind, binding)| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::TextureView(textures.view(*kind)),
+        });
+        let entries: Vec<_> = std::iter::once(view).chain(textures).collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("contrejour visibility"),
+            layout,
+            entries: &entries,
+        })
+    }
+}
+
+/// The visibility function of the current plan, bound.
+#[derive(Debug)]
+pub(crate) struct Visibility {
+    pub kind: VisibilityKind,
+    pub layout: wgpu::BindGroupLayout,
+    pub bind_group: wgpu::BindGroup,
+    pass: Option<VisibilityPass>,
+}
+
+impl Visibility {
+    pub fn new(device: &wgpu::Device, kind: VisibilityKind, buffers: &Buffers, textures: &Textures) -> Self {
+        let layout = kind.layout(device);
+        let bind_group = kind.bind(device, &layout, buffers, textures);
+        Self { kind, layout, bind_group, pass: None }
+    }
+
+    /// Binds maps that were made anew.
+    pub fn bind_again(&mut self, device: &wgpu::Device, buffers: &Buffers, textures: &Textures) {
+        self.bind_group = self.kind.bind(device, &self.layout, buffers, textures);
+    }
+
+    /// The full-screen pass, made when it is first used.
+    pub fn pass(&mut self, device: &wgpu::Device, format: wgpu::TextureFormat) -> (&VisibilityPass, &wgpu::BindGroup) {
+        let pass = self.pass.get_or_insert_with(|| VisibilityPass::new(device, self.kind, &self.layout, format));
+        (pass, &self.bind_group)
+    }
+}
+
+const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Uniform,
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+const DEPTH: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Depth,
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+/// The eye's view of a deferred renderer, for [`Shadows::encode_visibility`](crate::Shadows::encode_visibility).
+#[derive(Clone, Copy, Debug)]
+pub struct EyeInput<'a> {
+    /// The eye's depth buffer, single-sampled; needs `TEXTURE_BINDING`.
+    pub depth: &'a wgpu::TextureView,
+    /// World space from the eye's clip space, for the depths that the buffer holds: reversed z needs nothing more.
+    pub world_from_eye_clip: glam::DMat4,
+    /// Depth-buffer value where nothing was drawn: 1, or 0 with reversed z.
+    pub background_depth: f32,
+    /// Where visibility goes, of the depth buffer's size: a colour attachment of the format given as
+    /// [`visibility_format`](crate::ShadowOptions::visibility_format). Red holds visibility, 0 dark to 1 lit.
+    pub target: &'a wgpu::TextureView,
+}
+
+/// The full-screen pass.
+#[derive(Debug)]
+pub(crate) struct VisibilityPass {
+    eye_layout: wgpu::BindGroupLayout,
+    eye_view: wgpu::Buffer,
+    pipeline: wgpu::RenderPipeline,
+}
+
+impl VisibilityPass {
+    pub fn new(
+        device: &wgpu::Device,
+        kind: VisibilityKind,
+        visibility_layout: &wgpu::BindGroupLayout,
+        format: wgpu::TextureFormat,
+    ) -> Self {
+        let label = Some("visibility");
+        let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        };
+        let eye_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label,
+            entries: &[entry(0, UNIFORM), entry(1, DEPTH)],
+        });
+        let eye_view = device.create_buffer(&wgpu::BufferDescriptor {
+            label,
+            size: size_of::<EyeView>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label,
+            source: wgpu::ShaderSource::Wgsl(kind.pass_wgsl().into()),
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label,
+            bind_group_layouts: &[Some(&eye_layout), Some(visibility_layout)],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label,
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex_visibility"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fragment_visibility"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        Self { eye_layout, eye_view, pipeline }
+    }
+
+    pub fn encode<T: PassTimer>(
+        &self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        encoder: &mut wgpu::CommandEncoder,
+        eye: &EyeInput<'_>,
+        visibility: &wgpu::BindGroup,
+        timer: &mut T,
+    ) {
+        let record = EyeView {
+            world_from_eye_clip: eye.world_from_eye_clip.as_mat4().to_cols_array(),
+            background_depth: eye.background_depth,
+            ..EyeView::default()
+        };
+        queue.write_buffer(&self.eye_view, 0, bytemuck::bytes_of(&record));
+        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("visibility"),
+            layout: &self.eye_layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: self.eye_view.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(eye.depth) },
+            ],
+        });
+        let query = timer.begin("visibility", encoder);
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("visibility"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: eye.target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::WHITE),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                depth_stencil_attachment: None,
+                timestamp_writes: T::render_writes(&query),
+                occlusion_query_set: None,
+                multiview_mask: None,
+            });
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &bind_group, &[]);
+            pass.set_bind_group(1, visibility, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        timer.end(query, encoder);
+    }
+}
