@@ -67,9 +67,11 @@ impl TopologyAwareMesh {
         let used = used_vertices(positions.len(), triangles);
         let (bounds_min, bounds_max) = bounds(positions, &ids, &used);
         let (table, edge_classes, candidate_edge_count) = order_edges(table, &classified, options.motion);
-        let report = report(&faces, &ids, &used, &partners, &table, census, candidate_edge_count);
-        let (vertex_edge_offsets, vertex_edges) =
-            vertex_edges(&table.edges[..candidate_edge_count as usize], positions.len());
+        let candidates = &table.edges[..candidate_edge_count as usize];
+        let (report, (vertex_edge_offsets, vertex_edges)) = rayon::join(
+            || report(&faces, &ids, &used, &partners, &table, census, candidate_edge_count),
+            || vertex_edges(candidates, positions.len()),
+        );
         Ok(Self {
             positions: positions.to_vec(),
             faces,

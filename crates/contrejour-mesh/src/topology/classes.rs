@@ -48,21 +48,23 @@ pub(super) struct EdgeCensus {
     pub(super) most_faces: u32,
 }
 
-/// Edges that one task looks at.
-const EDGES_PER_TASK: usize = 1 << 12;
-
 /// Classifies all edges of a table whose words still name the faces themselves.
 pub(super) fn classify(positions: &[[f32; 3]], faces: &[Face], table: &EdgeTable) -> (Vec<Classified>, EdgeCensus) {
-    let edges = Neighbourhood { positions, faces, table };
-    let classified = table.edges.par_iter().map(|edge| edges.classify(edge)).collect::<Vec<_>>();
+    const EDGES_PER_TASK: usize = 1 << 12;
+    let around = Neighbourhood { positions, faces, incidences: &table.incidences };
+    let mut classified = vec![Classified { class: EdgeClass::Border, flat: false }; table.edges.len()];
     let census = table
         .edges
         .par_chunks(EDGES_PER_TASK)
-        .zip(classified.par_chunks(EDGES_PER_TASK))
-        .map(|(some_edges, classified)| {
+        .zip(classified.par_chunks_mut(EDGES_PER_TASK))
+        .map_init(Vec::new, |apexes, (edges, classified)| {
+            // Faces lie in memory in any order. Fetched in a loop of their own, many are on their way at once.
+            apexes.clear();
+            apexes.extend(edges.iter().map(|edge| around.apexes(edge)));
             let mut census = EdgeCensus::default();
-            for (edge, classified) in some_edges.iter().zip(classified) {
-                edges.count(edge, classified.class, &mut census);
+            for ((edge, apexes), classified) in edges.iter().zip(apexes).zip(classified) {
+                *classified = around.classify(edge, *apexes);
+                around.count(edge, classified.class, &mut census);
             }
             census
         })
@@ -74,33 +76,39 @@ pub(super) fn classify(positions: &[[f32; 3]], faces: &[Face], table: &EdgeTable
 struct Neighbourhood<'a> {
     positions: &'a [[f32; 3]],
     faces: &'a [Face],
-    table: &'a EdgeTable,
+    incidences: &'a [u32],
 }
 
 impl Neighbourhood<'_> {
     fn words<'a>(&'a self, edge: &'a Edge) -> &'a [u32] {
-        incidence_words(edge, &self.table.incidences)
+        incidence_words(edge, self.incidences)
     }
 
     fn apex(&self, edge: &Edge, word: u32) -> u32 {
         apex(&self.faces[(word >> 1) as usize], edge.low_vertex, edge.high_vertex)
     }
 
-    fn classify(&self, edge: &Edge) -> Classified {
-        let not_flat = |class| Classified { class, flat: false };
-        match *self.words(edge) {
-            [_] => not_flat(EdgeClass::Border),
-            [first, second] if (first ^ second) & INCIDENCE_ALONG == 0 => not_flat(EdgeClass::Flipped),
-            [first, second] => self.classify_pair(edge, first, second),
-            _ => not_flat(EdgeClass::NonManifold),
+    /// For two consistently wound faces, the apex of the one that runs along the edge and that of the other.
+    fn apexes(&self, edge: &Edge) -> Option<[u32; 2]> {
+        let [first, second] = *self.words(edge) else { return None };
+        match [first & INCIDENCE_ALONG, second & INCIDENCE_ALONG] {
+            [INCIDENCE_ALONG, 0] => Some([self.apex(edge, first), self.apex(edge, second)]),
+            [0, INCIDENCE_ALONG] => Some([self.apex(edge, second), self.apex(edge, first)]),
+            _ => None,
         }
     }
 
-    /// Classifies an edge with two consistently wound faces.
-    fn classify_pair(&self, edge: &Edge, first: u32, second: u32) -> Classified {
-        let (along, against) = if first & INCIDENCE_ALONG != 0 { (first, second) } else { (second, first) };
-        let [low, high, p, q] = [edge.low_vertex, edge.high_vertex, self.apex(edge, along), self.apex(edge, against)]
-            .map(|vertex| self.positions[vertex as usize]);
+    fn classify(&self, edge: &Edge, apexes: Option<[u32; 2]>) -> Classified {
+        let Some([along, against]) = apexes else {
+            let class = match self.words(edge).len() {
+                1 => EdgeClass::Border,
+                2 => EdgeClass::Flipped,
+                _ => EdgeClass::NonManifold,
+            };
+            return Classified { class, flat: false };
+        };
+        let [low, high, p, q] =
+            [edge.low_vertex, edge.high_vertex, along, against].map(|vertex| self.positions[vertex as usize]);
         match side_of_plane(low, high, p, q) {
             PlaneSide::Behind => Classified { class: EdgeClass::Convex, flat: false },
             PlaneSide::InFront => Classified { class: EdgeClass::Concave, flat: false },

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::error::TopologyError;
 use super::faces::{check, welded_faces};
-use super::half_edges::{HalfEdge, SortedHalfEdges, split_by_lengths};
+use super::half_edges::{HalfEdge, sorted_half_edges, split_by_lengths};
 use super::weld::{WeldKeys, weld};
 
 /// Edges with all the faces at them, as the triangles have them: the first half of a
@@ -36,9 +36,7 @@ impl EdgeTable {
 
     /// Collects the edges of welded faces.
     pub(super) fn of_faces(faces: &[Face], vertex_count: usize) -> Self {
-        let half_edges = SortedHalfEdges::new(faces, vertex_count);
-        let buckets = half_edges.buckets();
-        let sizes: Vec<Size> = buckets.par_iter().map(|bucket| Size::of(bucket)).collect();
+        let (half_edges, sizes) = sorted_half_edges(faces, vertex_count, Size::of);
 
         let mut edges = bytemuck::zeroed_vec(sizes.iter().map(|size| size.edges).sum());
         let mut incidences = vec![0; sizes.iter().map(|size| size.list_words).sum()];
@@ -46,7 +44,8 @@ impl EdgeTable {
             sizes.iter().scan(0, |next, size| Some(std::mem::replace(next, *next + size.list_words))).collect();
         let edge_parts = split_by_lengths(&mut edges, sizes.iter().map(|size| size.edges));
         let list_parts = split_by_lengths(&mut incidences, sizes.iter().map(|size| size.list_words));
-        buckets
+        half_edges
+            .buckets()
             .into_par_iter()
             .zip(edge_parts)
             .zip(list_parts)

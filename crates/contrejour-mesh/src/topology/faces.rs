@@ -16,14 +16,24 @@ use super::exact::collinear;
 pub(super) fn check(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<(), TopologyError> {
     check_counts(positions.len(), triangles.len())?;
     let vertices = positions.len() as u32;
-    if let Some(face) = triangles.par_iter().position_first(|corners| corners.iter().any(|&index| index >= vertices)) {
+    if let Some(face) = first_where(triangles, |corners| corners.iter().any(|&index| index >= vertices)) {
         let index = triangles[face].into_iter().find(|&index| index >= vertices).unwrap_or(vertices);
         return Err(TopologyError::IndexOutOfRange { face: face as u32, index, vertices });
     }
-    if let Some(vertex) = positions.par_iter().position_first(|position| !position.iter().all(|x| x.is_finite())) {
+    if let Some(vertex) = first_where(positions, |position| !position.iter().all(|x| x.is_finite())) {
         return Err(TopologyError::NonFinitePosition { vertex: vertex as u32, position: positions[vertex] });
     }
     Ok(())
+}
+
+/// Index of the first item for which the test holds.
+fn first_where<Item: Sync>(items: &[Item], test: impl Fn(&Item) -> bool + Sync) -> Option<usize> {
+    const ITEMS_PER_TASK: usize = 1 << 12;
+    // Without a way out of the loop, the compiler tests several items at once.
+    let any = |items: &[Item]| items.iter().fold(false, |any, item| any | test(item));
+    let task = items.par_chunks(ITEMS_PER_TASK).position_first(any)?;
+    let first_item = task * ITEMS_PER_TASK;
+    items[first_item..].iter().position(test).map(|offset| first_item + offset)
 }
 
 fn check_counts(vertices: usize, faces: usize) -> Result<(), TopologyError> {

@@ -34,35 +34,44 @@ impl HalfEdge {
     }
 }
 
-/// Half edges by bucket; sorted by low vertex, high vertex and face throughout.
-pub(super) struct SortedHalfEdges {
+/// Sorts the half edges of all faces but those that name a vertex twice, by low vertex, high vertex and face.
+///
+/// They come in buckets: no edge is in two of them. Also gives what `measure` finds of each bucket, which is asked
+/// while the bucket is still in a cache.
+pub(super) fn sorted_half_edges<Measure: Send>(
+    faces: &[Face],
+    vertex_count: usize,
+    measure: impl Fn(&[HalfEdge]) -> Measure + Sync,
+) -> (BucketedHalfEdges, Vec<Measure>) {
+    let buckets = Buckets::new(vertex_count);
+    let (mut half_edges, bucket_lengths) = deal(faces, buckets);
+    let measures = split_by_lengths(&mut half_edges, bucket_lengths.iter().copied())
+        .into_par_iter()
+        .enumerate()
+        .map_init(Scratch::default, |scratch, (bucket, half_edges)| {
+            scratch.sort(half_edges, buckets.first_vertex(bucket), buckets.width());
+            measure(half_edges)
+        })
+        .collect();
+    (BucketedHalfEdges { half_edges, bucket_lengths }, measures)
+}
+
+/// Half edges by bucket.
+pub(super) struct BucketedHalfEdges {
     half_edges: Vec<HalfEdge>,
     bucket_lengths: Vec<usize>,
 }
 
-impl SortedHalfEdges {
-    /// Sorts the half edges of all faces but those that name a vertex twice.
-    pub(super) fn new(faces: &[Face], vertex_count: usize) -> Self {
-        let buckets = Buckets::new(vertex_count);
-        let (mut half_edges, bucket_lengths) = deal(faces, buckets);
-        split_by_lengths(&mut half_edges, bucket_lengths.iter().copied()).into_par_iter().enumerate().for_each_init(
-            Scratch::default,
-            |scratch, (bucket, half_edges)| {
-                scratch.sort(half_edges, buckets.first_vertex(bucket), buckets.width());
-            },
-        );
-        Self { half_edges, bucket_lengths }
-    }
-
-    /// The buckets in order. No edge is in two of them.
+impl BucketedHalfEdges {
+    /// The buckets in order.
     pub(super) fn buckets(&self) -> Vec<&[HalfEdge]> {
         let mut rest = self.half_edges.as_slice();
-        let bucket_of_length = |&length: &usize| {
+        let next_bucket = |&length: &usize| {
             let (bucket, after) = rest.split_at(length);
             rest = after;
             bucket
         };
-        self.bucket_lengths.iter().map(bucket_of_length).collect()
+        self.bucket_lengths.iter().map(next_bucket).collect()
     }
 }
 
@@ -128,27 +137,27 @@ fn deal(faces: &[Face], buckets: Buckets) -> (Vec<HalfEdge>, Vec<usize>) {
     }
 
     chunks.into_par_iter().zip(first_faces).zip(cursors).for_each(|((chunk, first_face), mut cursors)| {
-        for half_edge in half_edges_of(chunk, first_face) {
+        for_each_half_edge(chunk, first_face, |half_edge| {
             if let Some(place) = cursors[buckets.of_vertex(half_edge.low_vertex)].next() {
                 *place = half_edge;
             }
-        }
+        });
     });
     (half_edges, bucket_lengths)
 }
 
 fn count_by_bucket(faces: &[Face], buckets: Buckets) -> Vec<usize> {
     let mut counts = vec![0; buckets.count];
-    for half_edge in half_edges_of(faces, 0) {
-        counts[buckets.of_vertex(half_edge.low_vertex)] += 1;
-    }
+    for_each_half_edge(faces, 0, |half_edge| counts[buckets.of_vertex(half_edge.low_vertex)] += 1);
     counts
 }
 
-fn half_edges_of(faces: &[Face], first_face: u32) -> impl Iterator<Item = HalfEdge> {
-    faces.iter().zip(first_face..).filter(|(face, _)| !repeats_a_vertex(face)).flat_map(|(face, id)| {
-        [HalfEdge::new(id, face.a, face.b), HalfEdge::new(id, face.b, face.c), HalfEdge::new(id, face.c, face.a)]
-    })
+fn for_each_half_edge(faces: &[Face], first_face: u32, mut visit: impl FnMut(HalfEdge)) {
+    for (face, id) in faces.iter().zip(first_face..).filter(|(face, _)| !repeats_a_vertex(face)) {
+        visit(HalfEdge::new(id, face.a, face.b));
+        visit(HalfEdge::new(id, face.b, face.c));
+        visit(HalfEdge::new(id, face.c, face.a));
+    }
 }
 
 /// Room that a thread uses again for each bucket that it sorts.
@@ -200,8 +209,9 @@ mod tests {
     use super::*;
 
     fn sorted(faces: &[Face], vertex_count: usize) -> Vec<HalfEdge> {
-        let sorted = SortedHalfEdges::new(faces, vertex_count);
+        let (sorted, lengths) = sorted_half_edges(faces, vertex_count, <[HalfEdge]>::len);
         assert_eq!(sorted.buckets().concat(), sorted.half_edges);
+        assert_eq!(lengths, sorted.bucket_lengths);
         sorted.half_edges
     }
 
@@ -245,7 +255,8 @@ mod tests {
                 c: scattered(3 * i + 1),
             })
             .collect();
-        let mut expected: Vec<HalfEdge> = half_edges_of(&faces, 0).collect();
+        let mut expected = Vec::new();
+        for_each_half_edge(&faces, 0, |half_edge| expected.push(half_edge));
         expected.sort_by_key(|half_edge| (half_edge.low_vertex, half_edge.high_vertex, half_edge.incidence));
         for threads in [1, 2, 7] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
