@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use contrejour_mesh::LoadError;
+use contrejour_plan::SettingsError;
 
 use crate::Scene;
 use crate::shapes::ShapeError;
@@ -110,6 +111,17 @@ pub enum Problem {
         /// Height, in pixels.
         height: u32,
     },
+    /// A shadow map that no device has.
+    #[error("a shadow map of {size} texels a side cannot be made; give 1 to {most}, 1024 is common")]
+    MapSize {
+        /// What was given.
+        size: u32,
+        /// The largest.
+        most: u32,
+    },
+    /// Shadow settings out of their ranges.
+    #[error(transparent)]
+    Shadow(#[from] SettingsError),
     /// More meshes than a scene may have.
     #[error("the scene has more than {most} meshes; join some of them", most = Scene::MAX_MESHES)]
     TooManyMeshes,

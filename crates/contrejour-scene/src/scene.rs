@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use contrejour_mesh::{MeshFile, TriangleMesh};
-use contrejour_plan::Light;
+use contrejour_plan::{Light, ShadowSettings};
 use glam::{DMat4, DVec3};
 
 use crate::framing::frame;
@@ -23,6 +23,8 @@ pub struct Scene {
     pub meshes: Vec<SceneMesh>,
     /// The light that casts the shadow.
     pub light: Light,
+    /// How the shadow is made.
+    pub shadow: ShadowSettings,
     /// Linear light that is everywhere, on top of `light`. Range: 0 and up.
     pub ambient: [f32; 3],
     /// Linear colour where there is no mesh. Range: 0 and up.

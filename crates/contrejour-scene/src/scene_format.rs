@@ -15,7 +15,6 @@
 //! kind = "spot"
 //! position = [-3, 5, 2]
 //! target = [0, 0.5, 0]
-//! cone_angle_degrees = 50
 //! radius = 0.2
 //!
 //! [[mesh]]
@@ -38,6 +37,7 @@
 //! | `background` | colour where there is no mesh | `[0.55, 0.6, 0.66]` |
 //! | `camera` | a table | must be given |
 //! | `light` | a table | must be given |
+//! | `shadow` | a table | the preset `medium` |
 //! | `mesh` | an array of tables | must be given |
 //!
 //! # `[camera]`
@@ -63,7 +63,7 @@
 //! | --- | --- | --- |
 //! | `position` | where it is | must be given |
 //! | `target` | what it shines at | must be given |
-//! | `cone_angle_degrees` | full opening angle, 0.01 to 179 | `60` |
+//! | `cone_angle_degrees` | full opening angle, 0.01 to 179 | around all meshes, at most 130 |
 //! | `radius` | radius of the disk that shines, 0 and up | `0` |
 //! | `near`, `far` | depths between which it casts and is received | around all meshes |
 //!
@@ -76,6 +76,20 @@
 //! | `half_extent` | half the side of the square that is shadowed | around all meshes |
 //! | `half_depth` | half the depth that is shadowed | around all meshes |
 //! | `angular_radius_degrees` | angular radius of the disk that shines, 0 to less than 90 | `0.27`, the sun's |
+//!
+//! # `[shadow]`
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `preset` | `"low"`, `"medium"`, `"high"` or `"ultra"`: where the other defaults come from | `"medium"` |
+//! | `technique` | `"smoothies"` or `"shadow-map"` | `"smoothies"` |
+//! | `map_size` | texels along a side of the maps, 1 to 16384 | the preset's |
+//! | `width_ndc` | width of the smoothies on the map, whose side is 2; more than 0, up to 2 | from the light's size |
+//! | `width_max_ndc` | largest width of the smoothies; more than 0, up to 2 | the preset's |
+//! | `remap` | `"contact"`: soft edges harden at the contact; `"off"`: they do not, for comparison | `"contact"` |
+//! | `bias_constant_texels`, `bias_slope_texels`, `bias_normal_texels`, `bias_smoothie_texels` | depth biases, 0 and up; see [`DepthBias`](contrejour_plan::DepthBias) | the preset's |
+//!
+//! `width_ndc`, `width_max_ndc`, `remap` and `bias_smoothie_texels` belong to smoothies, and are refused without them.
 //!
 //! # `[[mesh]]`
 //!
@@ -102,6 +116,6 @@
 //! | `"torus"` | `radius = 1`, `tube_radius = 0.35`, `segments = 128`, `sides = 48` |
 //! | `"knot"` | `radius = 1`, `tube_radius = 0.22`, `segments = 320`, `sides = 40` |
 //! | `"fence"` | `size = [4, 2, 0.04]`, `columns = 32`, `rows = 16`, `bar = 0.04` |
-//! | `"elephant"` | `height = 2`, `segments = 96` |
+//! | `"elephant"` | `height = 2`, `segments = 48` |
 //!
 //! Their meaning and ranges stand at [`Shape`](crate::shapes::Shape).

@@ -1,8 +1,11 @@
-//! How near and how far a view must reach.
+//! How near, how far and how wide a view must reach.
 
 use glam::DVec3;
 
 use crate::Bounds;
+
+/// The widest cone that is made without being asked: the map of a wider one has its texels where nobody looks.
+const WIDEST_CONE_DEGREES: f64 = 130.0;
 
 /// Depths where there is nothing to see.
 const EMPTY_DEPTHS: [f64; 2] = [0.1, 100.0];
@@ -31,6 +34,14 @@ fn depths(bounds: &Bounds, eye: DVec3, forward: DVec3, least_share: f64) -> [f64
     }
     let far = 1.02 * farthest;
     [(0.9 * nearest).max(least_share * far), far]
+}
+
+/// Full opening angle of the cone from `position` along the unit vector `axis` that holds all of the box; at most
+/// [`WIDEST_CONE_DEGREES`].
+pub(crate) fn cone_angle(bounds: &Bounds, position: DVec3, axis: DVec3) -> f64 {
+    let half_angle =
+        bounds.corners().into_iter().map(|corner| (corner - position).angle_between(axis)).fold(0.0, f64::max);
+    if bounds.is_empty() { 1.0 } else { (2.05 * half_angle).min(WIDEST_CONE_DEGREES.to_radians()) }
 }
 
 /// Half extent and half depth of a directional light from `direction` that shadows all of the box around `center`.

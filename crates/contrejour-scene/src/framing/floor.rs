@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use contrejour_plan::{Light, LightKind};
+use contrejour_plan::{Light, LightKind, ShadowSettings};
 use glam::{DMat4, DVec3};
 
 use super::camera_fit::fit_camera;
@@ -56,6 +56,7 @@ pub(super) fn on_a_floor(mut meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
         size,
         meshes,
         light: stage.light(&everywhere, &all),
+        shadow: ShadowSettings::default(),
         ambient: Scene::DEFAULT_AMBIENT,
         background: Scene::DEFAULT_BACKGROUND,
     }

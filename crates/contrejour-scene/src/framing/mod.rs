@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::{Bounds, Scene, SceneMesh};
 
-pub(crate) use depths::{camera_depths, light_depths, sun_extents};
+pub(crate) use depths::{camera_depths, cone_angle, light_depths, sun_extents};
 
 /// A scene around meshes that bring none.
 pub(crate) fn frame(meshes: Vec<SceneMesh>) -> Scene {
@@ -35,3 +35,6 @@ fn with_some_size(bounds: Bounds) -> Bounds {
     let half = if finest > 0.0 { 1e3 * finest } else { 0.5 };
     Bounds { min: middle - half, max: middle + half }
 }
+
+#[cfg(test)]
+mod tests;

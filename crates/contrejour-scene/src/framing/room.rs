@@ -1,16 +1,14 @@
 //! Rooms: meshes that are to be seen from within.
 
-use contrejour_plan::{Light, LightKind};
+use contrejour_plan::{Light, LightKind, ShadowSettings};
 use glam::DVec3;
 
-use super::{camera_depths, light_depths, with_some_size};
+use super::{camera_depths, cone_angle, light_depths, with_some_size};
 use crate::{Bounds, Camera, Scene, SceneMesh};
 
 /// Share of the faces' area that must face the middle.
 const INWARD_SHARE: f64 = 0.6;
 const CAMERA_FOV_Y_DEGREES: f64 = 65.0;
-/// The widest cone: the map of a wider one has its texels where nobody looks.
-const WIDEST_CONE_DEGREES: f64 = 130.0;
 /// Eye and lamp, from the middle (0) to the sides (1) of the room.
 const EYE: DVec3 = DVec3::new(0.2, 0.1, 0.88);
 const LAMP: DVec3 = DVec3::new(0.0, 0.8, 0.1);
@@ -55,13 +53,13 @@ pub(super) fn seen_from_within(meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene 
     let position = bounds.center() + LAMP * half;
     let below = bounds.center().with_y(bounds.min.y);
     let axis = (below - position).normalize();
-    let reach = bounds.corners().into_iter().filter(|corner| corner.y < bounds.center().y);
-    let half_angle = reach.map(|corner| (corner - position).angle_between(axis)).fold(0.0, f64::max);
+    // The floor and the lower half of the walls: what stands above is beside the lamp, not under it.
+    let lower_half = Bounds { min: bounds.min, max: bounds.max.with_y(bounds.center().y) };
     let [light_near, light_far] = light_depths(&bounds, position, axis);
     let kind = LightKind::Spot {
         position,
         target: below,
-        cone_angle: (2.05 * half_angle).min(WIDEST_CONE_DEGREES.to_radians()),
+        cone_angle: cone_angle(&lower_half, position, axis),
         radius: LAMP_RADIUS * bounds.size().y,
         near: light_near,
         far: light_far,
@@ -71,6 +69,7 @@ pub(super) fn seen_from_within(meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene 
         size: Scene::DEFAULT_SIZE,
         meshes,
         light: Light { kind, color: LAMP_COLOR },
+        shadow: ShadowSettings::default(),
         ambient: Scene::DEFAULT_AMBIENT,
         background: Scene::DEFAULT_BACKGROUND,
     }

@@ -12,12 +12,15 @@ pub(super) fn capsule(point: DVec3, begin: DVec3, end: DVec3, radii: [f64; 2]) -
     (point - begin - along * axis).length() - (radii[0] + along * (radii[1] - radii[0]))
 }
 
+/// Over what difference of distances the joints of a chain are rounded; more makes them bulge.
+const JOINT: f64 = 0.02;
+
 /// Distance to a chain of capsules through `stations`: middle and radius of each.
 pub(super) fn chain(point: DVec3, stations: &[(DVec3, f64)]) -> f64 {
     stations
         .windows(2)
         .map(|pair| capsule(point, pair[0].0, pair[1].0, [pair[0].1, pair[1].1]))
-        .fold(f64::INFINITY, |nearest, distance| blend(nearest, distance, 0.05))
+        .fold(f64::INFINITY, |nearest, distance| blend(nearest, distance, JOINT))
 }
 
 /// About the distance to an ellipsoid, after Quilez (2008): exact on the surface, first order around it.

@@ -84,7 +84,7 @@ pub enum Shape {
     Elephant {
         /// Height at its back. Default: 2.
         height: f64,
-        /// Grid cells along its length; triangles grow with its square. Range: 24 to 256. Default: 96.
+        /// Grid cells along its length; triangles grow with its square. Range: 24 to 256. Default: 48.
         segments: u32,
     },
 }

@@ -4,6 +4,7 @@ mod read_camera;
 mod read_light;
 mod read_mesh;
 mod read_scene;
+mod read_shadow;
 mod section;
 mod value;
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::read_camera::read_depths;
 use super::section::Section;
 use super::value::{ANGULAR_RADIUS, ANY, NOT_NEGATIVE, OPENING, POSITIVE, Value};
-use crate::framing::{light_depths, sun_extents};
+use crate::framing::{cone_angle, light_depths, sun_extents};
 use crate::{Bounds, Problem, SceneError};
 
 const KINDS: &[&str] = &["spot", "directional"];
@@ -28,7 +28,6 @@ const ALL_KEYS: &[&str] = &[
     "half_depth",
     "angular_radius_degrees",
 ];
-const CONE_ANGLE_DEGREES: f64 = 60.0;
 const SUN_ANGULAR_RADIUS_DEGREES: f64 = 0.27;
 
 pub(super) fn read_light(value: &Value<'_>, bounds: &Bounds) -> Result<Light, SceneError> {
@@ -53,8 +52,10 @@ fn read_spot(section: &Section<'_>, bounds: &Bounds) -> Result<LightKind, SceneE
         let remedy = "give a point that is not `position`";
         section.refuse_key("target", Problem::NoDirection { key: "target", remedy })
     })?;
-    let cone_angle =
-        section.read_or("cone_angle_degrees", CONE_ANGLE_DEGREES, |value| value.number(OPENING))?.to_radians();
+    let cone_angle = match section.get("cone_angle_degrees") {
+        Some(value) => value.number(OPENING)?.to_radians(),
+        None => cone_angle(bounds, position, axis),
+    };
     let radius = section.read_or("radius", 0.0, |value| value.number(NOT_NEGATIVE))?;
     let [near, far] = read_depths(section, light_depths(bounds, position, axis))?;
     Ok(LightKind::Spot { position, target, cone_angle, radius, near, far })

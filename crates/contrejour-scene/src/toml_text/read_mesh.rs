@@ -123,6 +123,6 @@ fn read_shape(value: &Value<'_>) -> Result<Shape, SceneError> {
             rows: count("rows", 16)?,
             bar: length("bar", 0.04)?,
         },
-        _ => Shape::Elephant { height: length("height", 2.0)?, segments: count("segments", 96)? },
+        _ => Shape::Elephant { height: length("height", 2.0)?, segments: count("segments", 48)? },
     })
 }

@@ -2,16 +2,18 @@
 
 use std::path::Path;
 
+use contrejour_plan::ShadowSettings;
 use toml::de::DeTable;
 
 use super::read_camera::read_camera;
 use super::read_light::read_light;
 use super::read_mesh::{MESH_KEYS, read_meshes};
+use super::read_shadow::read_shadow;
 use super::section::{Document, Section};
 use super::value::{NOT_NEGATIVE, Value};
 use crate::{Bounds, Problem, Scene, SceneError, SceneMesh};
 
-const SCENE_KEYS: &[&str] = &["size", "ambient", "background", "camera", "light", "mesh"];
+const SCENE_KEYS: &[&str] = &["size", "ambient", "background", "camera", "light", "shadow", "mesh"];
 
 pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str) -> Result<Scene, SceneError> {
     let document = Document { file_name, text };
@@ -30,6 +32,7 @@ pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str) -> Result
     Ok(Scene {
         camera: read_camera(&section.require("camera")?, &bounds)?,
         light: read_light(&section.require("light")?, &bounds)?,
+        shadow: section.read_or("shadow", ShadowSettings::default(), read_shadow)?,
         size: section.read_or("size", Scene::DEFAULT_SIZE, read_size)?,
         ambient: color("ambient", Scene::DEFAULT_AMBIENT)?,
         background: color("background", Scene::DEFAULT_BACKGROUND)?,

@@ -1,1 +1,198 @@
+use std::path::Path;
 
+use contrejour_plan::{AlphaRemap, LightKind, ShadowSettings, SmoothieWidth, Technique};
+
+use crate::{BUILT_IN_SCENES, MeshSource, Place, Problem, Scene, SceneError};
+
+const GOOD: &str = r#"size = [640, 480]
+
+[camera]
+eye = [0, 2, 5]
+target = [0, 0, 0]
+
+[light]
+kind = "spot"
+position = [-3, 5, 2]
+target = [0, 0, 0]
+
+[[mesh]]
+shape = { kind = "torus", radius = 0.8, segments = 16, sides = 8 }
+"#;
+
+fn read(text: &str) -> Result<Scene, SceneError> {
+    Scene::from_toml(text, Path::new("scenes"), "test.toml")
+}
+
+/// Where `GOOD` with `from` replaced by `to` is refused, and with which words.
+fn refused(from: &str, to: &str) -> (Place, Problem) {
+    assert!(GOOD.contains(from), "{from} is not in the text");
+    match read(&GOOD.replacen(from, to, 1)).expect_err("must be refused") {
+        SceneError::InFile { place, problem } => (place, *problem),
+        other => panic!("{other}"),
+    }
+}
+
+fn assert_refused(from: &str, to: &str, line: usize, column: usize, words: &str) {
+    let (place, problem) = refused(from, to);
+    let message = format!("{place}: {problem}");
+    assert_eq!((place.line, place.column), (line, column), "{message}");
+    assert!(message.starts_with("test.toml:") && message.contains(words), "{message}");
+}
+
+#[test]
+fn a_good_scene_is_read() {
+    let scene = read(GOOD).expect("good");
+    assert_eq!(scene.size, [640, 480]);
+    assert_eq!(scene.meshes.len(), 1);
+    assert_eq!(scene.meshes[0].mesh.triangles.len(), 256);
+    assert!(scene.meshes[0].casts && scene.meshes[0].receives);
+    assert!((scene.camera.fov_y - 40_f64.to_radians()).abs() < 1e-15);
+    assert_eq!(scene.shadow, ShadowSettings::default());
+}
+
+#[test]
+fn every_built_in_scene_is_read() {
+    for built_in in BUILT_IN_SCENES {
+        let scene = built_in.load().unwrap_or_else(|error| panic!("{error}"));
+        assert!(scene.meshes.iter().any(|mesh| mesh.casts), "{}", built_in.name);
+        assert!(scene.meshes.iter().any(|mesh| mesh.receives), "{}", built_in.name);
+    }
+    assert!(Scene::built_in(Some("nothing")).is_none());
+    assert!(Scene::built_in(None).is_some());
+}
+
+#[test]
+fn the_documented_example_is_a_scene() {
+    let page = include_str!("../scene_format.rs");
+    let example = page.split("```").nth(1).expect("the page has an example");
+    let text = example.trim_start_matches("toml").replace("//! ", "").replace("//!", "");
+    assert_eq!(read(&text).expect("the example is good").meshes.len(), 2);
+}
+
+#[test]
+fn a_mistake_in_the_syntax_has_its_line() {
+    assert_refused("eye = [0, 2, 5]", "eye = [0, 2, 5", 5, 1, "not valid TOML");
+    assert_refused("kind = \"spot\"\n", "kind = \"spot\"\nkind = \"spot\"\n", 9, 1, "duplicate key");
+}
+
+#[test]
+fn an_unknown_key_is_refused_with_the_known_ones() {
+    assert_refused(
+        "target = [0, 0, 0]",
+        "aim = [0, 0, 0]",
+        5,
+        1,
+        "the camera has no key `aim`; it has `eye`, `target`",
+    );
+    assert_refused("size", "sise", 1, 1, "the scene has no key `sise`");
+    assert_refused("sides = 8", "corners = 8", 13, 56, "the shape has no key `corners`");
+    assert_refused("sides = 8", "height = 8", 13, 56, "the shape \"torus\" has no key `height`");
+    assert_refused("position", "center = [0, 0, 0]\nposition", 9, 1, "a spot light has no key `center`");
+}
+
+#[test]
+fn a_missing_key_names_its_section() {
+    assert_refused("eye = [0, 2, 5]", "", 3, 1, "the camera needs the key `eye`");
+    assert_refused("kind = \"spot\"", "", 7, 1, "the light needs the key `kind`");
+    assert!(read("").expect_err("nothing there").to_string().contains("test.toml:1:1: the scene needs the key `mesh`"));
+}
+
+#[test]
+fn a_wrong_type_says_what_is_needed() {
+    assert_refused("eye = [0, 2, 5]", "eye = \"far\"", 4, 7, "`eye` is a string; give an array of 3 numbers");
+    assert_refused("eye = [0, 2, 5]", "eye = [0, true, 5]", 4, 11, "`eye` is true or false; give a number");
+    assert_refused("segments = 16", "segments = 16.5", 13, 52, "give a whole number");
+    assert_refused("[[mesh]]", "[mesh]", 12, 1, "`mesh` is a table; give an array of tables");
+    assert_refused("[[mesh]]", "[[mesh]]\ncasts = 1", 13, 9, "`casts` is a whole number; give true or false");
+}
+
+#[test]
+fn numbers_that_make_no_sense_are_refused() {
+    assert_refused("eye = [0, 2, 5]", "eye = [0, nan, 5]", 4, 11, "`eye` is nan");
+    assert_refused("eye = [0, 2, 5]", "eye = [0, 2, -inf]", 4, 14, "`eye` is -inf");
+    assert_refused("eye = [0, 2, 5]", "eye = [0, 2, 1e300]", 4, 14, "`eye` is 1e300");
+    assert_refused("eye = [0, 2, 5]", "eye = [0, 2]", 4, 7, "`eye` is an array of 2; give an array of 3 numbers");
+    assert_refused("eye = [0, 2, 5]", "eye = [0, 2, 5]\nfov_y_degrees = 180", 5, 17, "degrees from 0.01 to 179");
+    assert_refused("radius = 0.8", "radius = -1", 13, 36, "`radius` is -1");
+    assert_refused("segments = 16", "segments = 65_537", 13, 52, "`segments` is 65537: give a whole number from 3");
+    assert_refused("segments = 16", "segments = -3", 13, 52, "`segments` is -3");
+    assert_refused("[[mesh]]", "[[mesh]]\nscale = 0", 13, 9, "`scale` is 0; give a number that is not 0");
+    assert_refused("[[mesh]]", "[[mesh]]\nscale = [1, 0, 1]", 13, 13, "`scale` is 0");
+    assert_refused("[[mesh]]", "[[mesh]]\nbase_color = [1, 2, 1]", 13, 18, "a number from 0 to 1");
+}
+
+#[test]
+fn a_picture_has_a_sensible_size() {
+    for size in ["[0, 480]", "[640, 16385]", "[4000000000, 4000000000]"] {
+        let (place, problem) = refused("[640, 480]", size);
+        assert!(matches!(problem, Problem::PictureSize { .. }), "{problem}");
+        assert_eq!((place.line, place.column), (1, 8));
+    }
+    assert_refused("[640, 480]", "[-1, 480]", 1, 9, "`size` is -1");
+    assert_eq!(read(&GOOD.replace("[640, 480]", "[1, 16384]")).expect("at the limits").size, [1, 16_384]);
+}
+
+#[test]
+fn views_need_a_direction_and_depths_in_order() {
+    assert_refused("eye = [0, 2, 5]", "eye = [0, 0, 0]", 5, 10, "`target` leaves no direction");
+    assert_refused("eye = [0, 2, 5]", "eye = [0, 2, 5]\nup = [0, 4, 10]", 5, 6, "`up` leaves no direction");
+    assert_refused("position = [-3, 5, 2]", "position = [0, 0, 0]", 10, 10, "`target` leaves no direction");
+    assert_refused("eye = [0, 2, 5]", "eye = [0, 2, 5]\nnear = 5\nfar = 5", 6, 7, "not beyond `near`");
+}
+
+#[test]
+fn a_mesh_has_one_origin_and_its_file_is_told() {
+    assert_refused("shape = {", "name = \"it\" #", 12, 1, "either `shape` or `file`");
+    assert_refused("[[mesh]]", "[[mesh]]\nfile = \"a.obj\"", 13, 8, "not both");
+    let (place, problem) = refused("shape = {", "file = \"no-such.obj\" #");
+    assert_eq!(place.line, 13);
+    let message = problem.to_string();
+    assert!(matches!(problem, Problem::Mesh(_)) && message.contains("no-such.obj"), "{message}");
+}
+
+#[test]
+fn mesh_files_are_found_beside_the_scene() {
+    let text = GOOD.replace("shape = {", "file = \"meshes/knot.obj\" #");
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    let scene = Scene::from_toml(&text, &assets, "test.toml").unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scene.meshes[0].source, MeshSource::File(assets.join("meshes/knot.obj")));
+    assert!(!scene.meshes[0].mesh.triangles.is_empty());
+}
+
+#[test]
+fn lights_of_both_kinds_are_read() {
+    let sun = GOOD
+        .replace("\"spot\"", "\"directional\"\nangular_radius_degrees = 90e-1")
+        .replace("position = [-3, 5, 2]\ntarget = [0, 0, 0]", "towards_light = [0, 3, 0]");
+    let LightKind::Directional { center, half_extent, half_depth, angular_radius, .. } =
+        read(&sun).expect("good").light.kind
+    else {
+        panic!("a sun was asked for")
+    };
+    assert!(center.length() < 1e-6 && half_extent > 1.15 && half_depth > 0.35, "{half_extent} {half_depth}");
+    assert!((angular_radius - 9_f64.to_radians()).abs() < 1e-15);
+    assert_refused("\"spot\"", "\"lamp\"", 8, 8, "`kind` is \"lamp\"; give one of `spot`, `directional`");
+}
+
+#[test]
+fn shadow_settings_are_read_and_checked() {
+    let with = |shadow: &str| GOOD.replacen("[light]", &format!("[shadow]\n{shadow}\n\n[light]"), 1);
+    let scene =
+        read(&with("preset = \"high\"\nwidth_ndc = 0.08\nremap = \"off\"\nbias_slope_texels = 3")).expect("good");
+    let Technique::Smoothies(smoothies) = scene.shadow.technique else { panic!("the default are smoothies") };
+    assert_eq!((smoothies.width, smoothies.remap), (SmoothieWidth::Ndc(0.08), AlphaRemap::Off));
+    assert_eq!((scene.shadow.map_size, scene.shadow.bias.slope_texels), (2048, 3.0));
+    assert_eq!(read(&with("technique = \"shadow-map\"")).expect("good").shadow.technique, Technique::ShadowMap);
+
+    let message = |shadow: &str| read(&with(shadow)).expect_err("must be refused").to_string();
+    assert!(message("preset = \"best\"").starts_with("test.toml:8:10: `preset` is \"best\"; give one of `low`"));
+    assert!(message("map_size = 0").starts_with("test.toml:8:12: a shadow map of 0 texels"));
+    assert!(message("width_ndc = 3").contains("width is 3: give more than 0 and at most 2"));
+    assert!(message("technique = \"shadow-map\"\nremap = \"off\"").starts_with("test.toml:9:1: a shadow made by"));
+}
+
+#[test]
+fn a_scene_file_that_is_not_there_is_an_error() {
+    let error = Scene::open(Path::new("no-such-scene.toml")).expect_err("there is none");
+    assert!(error.to_string().starts_with("cannot read the scene no-such-scene.toml"), "{error}");
+}
