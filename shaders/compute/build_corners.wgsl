@@ -16,31 +16,30 @@
 @group(0) @binding(7) var<storage, read_write> corners: array<Corner>;
 @group(0) @binding(8) var<storage, read_write> counters: AtomicCounters;
 
-// Two directions whose pseudo-angle differs by less than this can't be told apart.
+// Two directions whose cosine is nearer to 1 than this can't be told apart.
 const COINCIDENT = 1e-4;
-const FULL_TURN = 4.0;
 const HALF_TURN = 2.0;
+const MORE_THAN_A_TURN = 5.0;
 
 // One end of an outline edge, on the image plane.
 struct EdgeEnd {
     vertex: u32,
-    clip: vec4f,
     // Unit direction from the vertex along the edge.
     direction: vec2f,
     // +1 where the outside lies counter-clockwise of the direction, -1 where clockwise.
     turn: f32,
 }
 
-// The outline edge that one meets first when turning through the outside.
+// An outline edge that one meets when turning through the outside.
 struct Neighbour {
-    found: bool,
     direction: vec2f,
+    // 0 where there is none.
     turn: f32,
     // Monotone in the angle: 0 at none, 2 at a half turn, 4 at a full one.
     pseudo_angle: f32,
 }
 
-const NO_NEIGHBOUR = Neighbour(false, vec2f(0.0), 0.0, FULL_TURN);
+const NO_NEIGHBOUR = Neighbour(vec2f(0.0), 0.0, MORE_THAN_A_TURN);
 
 // Directions where a wedge begins and ends, counter-clockwise. Nothing to draw where kind is NOTHING.
 struct Wedge {
@@ -95,14 +94,8 @@ fn build_corners(
 
 fn end_of_quad(quad: Quad, is_high: bool) -> EdgeEnd {
     let vertex = select(quad.low_vertex, quad.high_vertex, is_high);
-    let other_vertex = select(quad.high_vertex, quad.low_vertex, is_high);
-    let caster = casters[quad.caster];
-    let clip_from_object = caster_lights[quad.caster].light_clip_from_object;
-    let position = scaled_position(caster, vertex);
-    let clip = clip_from_object * vec4f(position, 1.0);
-    let delta = clip_from_object * vec4f(scaled_position(caster, other_vertex) - position, 0.0);
-    let direction = image_direction(clip, delta);
-    return EdgeEnd(vertex, clip, direction, outside_turn(quad.side, !is_high));
+    let turn = outside_turn(quad.side, !is_high);
+    return EdgeEnd(vertex, turn * clockwise(quad.outward), turn);
 }
 
 // The outside lies on the right of an edge whose blocker is on its left. Seen from its high end it runs the other way.
@@ -112,7 +105,7 @@ fn outside_turn(side: u32, from_low: bool) -> f32 {
 
 fn wedge_at(edge_end: EdgeEnd, quad: Quad) -> Wedge {
     let neighbour = find_neighbour(edge_end, quad);
-    if !neighbour.found {
+    if neighbour.turn == 0.0 {
         return cap(edge_end);
     }
     if edge_end.turn < 0.0 || neighbour.pseudo_angle <= HALF_TURN {
@@ -130,18 +123,18 @@ fn cap(edge_end: EdgeEnd) -> Wedge {
     return Wedge(-edge_end.direction, outward, CORNER_CAP);
 }
 
+// The outline edge that one meets first; none where it can't be told apart or does not end this outside.
 fn find_neighbour(edge_end: EdgeEnd, quad: Quad) -> Neighbour {
     let caster = casters[quad.caster];
-    let clip_from_object = caster_lights[quad.caster].light_clip_from_object;
-    let position = scaled_position(caster, edge_end.vertex);
     let offset_word = caster.first_vertex_offset_word + edge_end.vertex;
     let first = vertex_edges[offset_word];
     let last = vertex_edges[offset_word + 1u];
-    if last - first > MAX_SEARCHED_VALENCE || all(edge_end.direction == vec2f(0.0)) {
+    if last - first > MAX_SEARCHED_VALENCE {
         return NO_NEIGHBOUR;
     }
 
     var nearest = NO_NEIGHBOUR;
+    var second = NO_NEIGHBOUR;
     for (var i = first; i < last; i++) {
         let word = caster.first_vertex_edge_word + 2u * i;
         let edge_id = vertex_edges[word];
@@ -150,18 +143,38 @@ fn find_neighbour(edge_end: EdgeEnd, quad: Quad) -> Neighbour {
         if edge_id == quad.edge_id || side == OUTLINE_NONE {
             continue;
         }
-        let delta = clip_from_object * vec4f(scaled_position(caster, other_vertex) - position, 0.0);
-        let direction = image_direction(edge_end.clip, delta);
-        let pseudo_angle = turned(edge_end, direction);
-        if all(direction == vec2f(0.0)) || pseudo_angle < COINCIDENT || pseudo_angle > FULL_TURN - COINCIDENT {
+        let direction = direction_to(edge_end, other_vertex, quad.caster);
+        if all(direction == vec2f(0.0)) || coincide(edge_end.direction, direction) {
             return NO_NEIGHBOUR;
         }
-        if pseudo_angle < nearest.pseudo_angle {
-            let turn = outside_turn(side, edge_end.vertex < other_vertex);
-            nearest = Neighbour(turn != edge_end.turn, direction, turn, pseudo_angle);
+        let turn = outside_turn(side, edge_end.vertex < other_vertex);
+        let neighbour = Neighbour(direction, turn, turned(edge_end, direction));
+        if neighbour.pseudo_angle < nearest.pseudo_angle {
+            second = nearest;
+            nearest = neighbour;
+        } else if neighbour.pseudo_angle < second.pseudo_angle {
+            second = neighbour;
         }
     }
+    // The neighbour closes its side alone when it coincides with another; then this end must do so too.
+    if nearest.turn == edge_end.turn || coincide(nearest.direction, second.direction) {
+        return NO_NEIGHBOUR;
+    }
     return nearest;
+}
+
+// Direction of an edge from an end's vertex, found from the edge's lower vertex as its own quad finds it, so that all
+// ends agree on it to the bit.
+fn direction_to(edge_end: EdgeEnd, other_vertex: u32, caster_id: u32) -> vec2f {
+    let caster = casters[caster_id];
+    let low = scaled_position(caster, min(edge_end.vertex, other_vertex));
+    let high = scaled_position(caster, max(edge_end.vertex, other_vertex));
+    let direction = image_direction(caster_lights[caster_id].light_clip_from_object, low, high);
+    return select(-direction, direction, edge_end.vertex < other_vertex);
+}
+
+fn coincide(direction: vec2f, other: vec2f) -> bool {
+    return dot(direction, other) > 1.0 - COINCIDENT;
 }
 
 fn side_of_edge(caster: Caster, edge_id: u32) -> u32 {

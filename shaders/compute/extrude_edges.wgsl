@@ -53,14 +53,14 @@ fn extrude(silhouette: SilhouetteEdge, quad: ptr<function, Quad>) -> bool {
     let edge = edges[caster.first_edge + silhouette.edge_id];
     let low = scaled_position(caster, edge.low_vertex);
     let high = scaled_position(caster, edge.high_vertex);
-    let low_clip = clip_from_object * vec4f(low, 1.0);
-    let high_clip = clip_from_object * vec4f(high, 1.0);
-    let delta_clip = clip_from_object * vec4f(high - low, 0.0);
-    let direction = image_direction(low_clip, delta_clip);
+    let direction = image_direction(clip_from_object, low, high);
     if all(direction == vec2f(0.0)) {
         atomicAdd(&counters.point_edges, 1u);
         return false;
     }
+    let low_clip = clip_from_object * vec4f(low, 1.0);
+    let high_clip = clip_from_object * vec4f(high, 1.0);
+    let delta_clip = clip_from_object * vec4f(high - low, 0.0);
 
     // Clip by depth first, since the width that widens the frustum depends on it.
     let depth_span = clip_by_depth(Span(0.0, 1.0), low_clip, high_clip);

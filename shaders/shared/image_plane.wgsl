@@ -1,21 +1,30 @@
 // Edges on the light's image plane.
 
-// An edge whose image is shorter than this share of the terms that it is the difference of is rounding noise.
-const POINT_TOLERANCE = 1e-7;
+// An edge whose image is shorter than this share of what it could be at any other angle to the light projects to a
+// point. Rounding turns edges by some 1e-7, while facing is exact: below that, direction and facing disagree. Enough
+// above it for directions right to a hundredth of a radian, and still far below a texel.
+const POINT_TOLERANCE = 4e-6;
 
-// Unit direction in which the image of `clip + t * delta` moves as t grows; zero where the edge projects to a point.
+// Unit direction in which the image moves from a low to a high end; zero where the edge projects to a point.
 // Derivative of xy / w, times w squared: right for any sign of w, also that of an end behind the light.
-fn image_direction(clip: vec4f, delta: vec4f) -> vec2f {
-    let ahead = delta.xy * clip.w;
-    let drift = clip.xy * delta.w;
-    let direction = ahead - drift;
+fn image_direction(clip_from_object: mat4x4f, low: vec3f, high: vec3f) -> vec2f {
+    let clip = clip_from_object * vec4f(low, 1.0);
+    let delta = clip_from_object * vec4f(high - low, 0.0);
+    let direction = delta.xy * clip.w - clip.xy * delta.w;
     let size = max(abs(direction.x), abs(direction.y));
-    let noise = POINT_TOLERANCE * (length(ahead) + length(drift));
-    if size > noise {
+    if size > POINT_TOLERANCE * longest_image(clip_from_object, clip, high - low) {
         // Divided by its size first, so that squares neither overflow nor vanish.
         return normalize(direction / size);
     }
     return vec2f(0.0);
+}
+
+// A bound of the terms that a direction is the difference of, for any edge as long as `delta`.
+fn longest_image(clip_from_object: mat4x4f, clip: vec4f, delta: vec3f) -> f32 {
+    let reach = abs(clip_from_object[0]) + abs(clip_from_object[1]) + abs(clip_from_object[2]);
+    let offset = max(abs(clip.x), abs(clip.y));
+    let length = max(max(abs(delta.x), abs(delta.y)), abs(delta.z));
+    return length * (max(reach.x, reach.y) * abs(clip.w) + offset * reach.w);
 }
 
 fn counter_clockwise(v: vec2f) -> vec2f {
