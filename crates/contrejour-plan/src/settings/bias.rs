@@ -17,9 +17,9 @@ pub struct DepthBias {
     /// The receiver is moved along its normal by this much before the look-up, times the sine of the angle between
     /// normal and light; helps where the slope is steep. Range: 0 and up. Default: 0.5.
     pub normal_texels: f32,
-    /// How far a smoothie may lie behind the receiver that it is drawn over and still be kept. Too little: smoothies
-    /// vanish where a caster touches its receiver. Too much: they darken the caster's own lit side. Range: 0 and up.
-    /// Default: 1.
+    /// How far behind a smoothie its receiver must lie for the smoothie to be kept. Too little: rounding lets smoothies
+    /// darken the caster's own lit side. Too much: the soft edge sets in late where a caster touches its receiver.
+    /// Range: 0 and up. Default: 1.
     pub smoothie_texels: f32,
 }
 
