@@ -217,7 +217,7 @@ mod tests {
 
     /// (vertex, angle in degrees, kind) by ascending vertex.
     fn wedges(scene: &TestScene) -> Vec<(u32, f32, u32)> {
-        let mut corners = scene.outline().corners;
+        let mut corners = scene.frame().corners;
         corners.sort_by_key(|corner| (corner.vertex_id, corner.edge_id));
         for corner in &corners {
             let middle = 0.5 * angle(corner).to_radians();
@@ -238,8 +238,8 @@ mod tests {
     #[test]
     fn wedge_begins_and_ends_at_the_quads() {
         let corners = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]];
-        let outline = TestScene::flat(&corners, &[[0, 1, 2]]).outline();
-        let corner = outline.corners.iter().find(|corner| corner.vertex_id == 0).expect("vertex 0 is convex");
+        let frame = TestScene::flat(&corners, &[[0, 1, 2]]).frame();
+        let corner = frame.corners.iter().find(|corner| corner.vertex_id == 0).expect("vertex 0 is convex");
         assert_eq!((corner.begin, corner.end), ([-1.0, 0.0], [0.0, -1.0]));
         assert_eq!((corner.apex_ndc, corner.q, corner.width_ndc), ([0.0, 0.0], 4.0, 0.05));
     }
@@ -293,14 +293,22 @@ mod tests {
     }
 
     #[test]
+    fn both_sides_of_a_sector_know_when_an_edge_coincides() {
+        // Edge 0-1 nearly coincides with 0-3, so it closes its side alone. Edge 0-2 across the outside must know.
+        let corners = [[0.0, 0.0], [0.5, 0.0], [0.45, -0.2], [0.4, -0.002], [0.4, -0.05]];
+        let scene = TestScene::flat(&corners, &[[0, 1, 2], [0, 3, 4]]);
+        let at_vertex: Vec<_> = wedges(&scene).into_iter().filter(|&(vertex, ..)| vertex == 0).collect();
+        assert_eq!(at_vertex, [(0, 90.0, CORNER_CAP); 4]);
+    }
+
+    #[test]
     fn neighbour_that_projects_to_a_point_asks_for_caps() {
         let positions = [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, 1.0]];
-        let outline = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Directional).outline();
-        assert_eq!(outline.corners.len(), 4);
-        assert!(outline.corners.iter().all(|corner| corner.kind == CORNER_CAP));
+        let frame = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Directional).frame();
+        assert_eq!(frame.corners.len(), 4);
+        assert!(frame.corners.iter().all(|corner| corner.kind == CORNER_CAP));
         // At vertex 0 from below to the left, at vertex 2 from the left to above.
-        let at =
-            |vertex| outline.corners.iter().find(|corner| corner.vertex_id == vertex).expect("both ends are capped");
+        let at = |vertex| frame.corners.iter().find(|corner| corner.vertex_id == vertex).expect("both ends are capped");
         let rounded = |direction: [f32; 2]| Vec2::from(direction).round() + 0.0;
         assert_eq!(rounded(at(0).end), rounded(at(2).begin));
     }
@@ -313,8 +321,8 @@ mod tests {
             let mut positions = vec![[0.0, 0.0]];
             positions.extend((0..spokes).map(|i| rim(i).to_array()));
             let faces: Vec<_> = (1..spokes).map(|i| [0, i, i + 1]).collect();
-            let outline = TestScene::flat(&positions, &faces).outline();
-            let at_hub: Vec<_> = outline.corners.iter().filter(|corner| corner.vertex_id == 0).collect();
+            let frame = TestScene::flat(&positions, &faces).frame();
+            let at_hub: Vec<_> = frame.corners.iter().filter(|corner| corner.vertex_id == 0).collect();
             assert!(!at_hub.is_empty() && at_hub.iter().all(|corner| corner.kind == kind), "{spokes} spokes");
         }
     }

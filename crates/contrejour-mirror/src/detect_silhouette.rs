@@ -109,16 +109,7 @@ fn outline_side(sides: Sides) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::test_scene::{Outline, TestLight, TestScene};
-
-    /// (low vertex, high vertex, left, right) of the silhouette.
-    fn silhouette(outline: &Outline) -> Vec<(u32, u32, u32, u32)> {
-        let vertices = |edge_id: u32| &outline.edges[edge_id as usize];
-        let record = |edge: &SilhouetteEdge| {
-            (vertices(edge.edge_id).low_vertex, vertices(edge.edge_id).high_vertex, edge.left, edge.right)
-        };
-        outline.silhouettes.iter().map(record).collect()
-    }
+    use crate::test_scene::{TestLight, TestScene};
 
     // 2
     // |\
@@ -128,20 +119,20 @@ mod tests {
 
     #[test]
     fn every_edge_of_one_face_is_silhouette() {
-        let front = TestScene::flat(&CORNERS, &[[0, 1, 2]]).outline();
-        assert_eq!(silhouette(&front), [(0, 1, 1, 0), (0, 2, 0, 1), (1, 2, 1, 0)]);
-        assert_eq!(front.outline_sides, [0b01_10_01, 0, 0, 0]);
+        let front = TestScene::flat(&CORNERS, &[[0, 1, 2]]);
+        assert_eq!(front.silhouette(), [(0, 1, 1, 0), (0, 2, 0, 1), (1, 2, 1, 0)]);
+        assert_eq!(front.frame().outline_sides, [0b01_10_01, 0, 0, 0]);
 
         // From behind the face is unlit, but it lies on the same side.
-        let back = TestScene::flat(&CORNERS, &[[0, 2, 1]]).outline();
-        assert_eq!(silhouette(&back), silhouette(&front));
+        let back = TestScene::flat(&CORNERS, &[[0, 2, 1]]);
+        assert_eq!(back.silhouette(), front.silhouette());
     }
 
     #[test]
     fn exactly_edge_on_is_unlit() {
         let edge_on =
             TestScene::new(&[[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, 1.0]], &[[0, 1, 2]], TestLight::Directional);
-        assert_eq!(silhouette(&edge_on.outline()), [(0, 1, 0, 1), (0, 2, 1, 0), (1, 2, 0, 1)]);
+        assert_eq!(edge_on.silhouette(), [(0, 1, 0, 1), (0, 2, 1, 0), (1, 2, 0, 1)]);
     }
 
     #[test]
@@ -151,11 +142,11 @@ mod tests {
         // |/ |
         // 0--1
         let square = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
-        let wound_alike = TestScene::flat(&square, &[[0, 1, 2], [0, 2, 3]]).outline();
+        let wound_alike = TestScene::flat(&square, &[[0, 1, 2], [0, 2, 3]]);
         let border = [(0, 1, 1, 0), (0, 3, 0, 1), (1, 2, 1, 0), (2, 3, 1, 0)];
-        assert_eq!(silhouette(&wound_alike), border);
-        let wound_against_each_other = TestScene::flat(&square, &[[0, 1, 2], [0, 3, 2]]).outline();
-        assert_eq!(silhouette(&wound_against_each_other), border);
+        assert_eq!(wound_alike.silhouette(), border);
+        let wound_against_each_other = TestScene::flat(&square, &[[0, 1, 2], [0, 3, 2]]);
+        assert_eq!(wound_against_each_other.silhouette(), border);
     }
 
     #[test]
@@ -163,15 +154,16 @@ mod tests {
         let positions = [[-0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
         let tetrahedron =
             TestScene::new(&positions, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], TestLight::Directional);
-        assert_eq!(silhouette(&tetrahedron.outline()), [(0, 1, 2, 0), (0, 2, 0, 2), (1, 2, 2, 0)]);
+        assert_eq!(tetrahedron.silhouette(), [(0, 1, 2, 0), (0, 2, 0, 2), (1, 2, 2, 0)]);
     }
 
     #[test]
     fn three_faces_at_an_edge_all_count() {
         // Two faces on the left of 0-1 and one on its right: in the silhouette, but no outline.
         let positions = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.2, 0.5], [0.0, -0.5]];
-        let fan = TestScene::flat(&positions, &[[0, 1, 2], [0, 1, 3], [0, 4, 1]]).outline();
-        assert_eq!(silhouette(&fan)[0], (0, 1, 2, 1));
+        let fan = TestScene::flat(&positions, &[[0, 1, 2], [0, 1, 3], [0, 4, 1]]);
+        assert_eq!(fan.silhouette()[0], (0, 1, 2, 1));
+        let fan = fan.frame();
         assert_eq!(fan.outline_sides[0] & 3, OUTLINE_NONE);
         assert_eq!(fan.counters.silhouette_edges, 7);
         assert_eq!(fan.counters.quads, 6);
@@ -182,10 +174,10 @@ mod tests {
         // 100 faces apart: 300 edges.
         let positions: Vec<_> = (0..100).flat_map(|i| CORNERS.map(|[x, y]| [x + i as f32, y])).collect();
         let faces: Vec<_> = (0..100).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let outline = TestScene::flat(&positions, &faces).outline();
-        assert_eq!(outline.counters.silhouette_edges, 300);
-        assert_eq!(outline.outline_sides.len(), 20);
-        let side = |edge_id: usize| outline.outline_sides[edge_id / 16] >> (edge_id % 16 * 2) & 3;
+        let frame = TestScene::flat(&positions, &faces).frame();
+        assert_eq!(frame.counters.silhouette_edges, 300);
+        assert_eq!(frame.outline_sides.len(), 20);
+        let side = |edge_id: usize| frame.outline_sides[edge_id / 16] >> (edge_id % 16 * 2) & 3;
         for edge_id in 0..320 {
             assert_eq!(side(edge_id), if edge_id < 300 { [1, 2, 1][edge_id % 3] } else { 0 });
         }
@@ -195,11 +187,11 @@ mod tests {
     fn what_does_not_fit_is_still_counted() {
         let mut scene = TestScene::flat(&CORNERS, &[[0, 1, 2]]);
         scene.capacity = 2;
-        let outline = scene.outline();
-        assert_eq!(outline.counters.silhouette_edges, 3);
-        assert_eq!(outline.silhouettes.len(), 2);
-        assert_eq!(outline.counters.quads, 2);
-        assert_eq!(outline.counters.corners, 2);
+        let frame = scene.frame();
+        assert_eq!(frame.counters.silhouette_edges, 3);
+        assert_eq!(frame.silhouettes.len(), 2);
+        assert_eq!(frame.counters.quads, 2);
+        assert_eq!(frame.counters.corners, 2);
     }
 
     #[test]

@@ -174,7 +174,7 @@ fn clip_by_plane(span: Span, low_distance: f32, high_distance: f32) -> Option<Sp
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec3, Vec2};
+    use glam::{Vec2, Vec3};
 
     use super::*;
     use crate::test_scene::{TestLight, TestScene};
@@ -204,32 +204,32 @@ mod tests {
     fn smoothies_extend_away_from_the_face() {
         let corners = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]];
         for faces in [[[0, 1, 2]], [[0, 2, 1]]] {
-            let outline = TestScene::flat(&corners, &faces).outline();
-            let outwards: Vec<_> = outline.quads.iter().map(|quad| quad.outward).collect();
+            let frame = TestScene::flat(&corners, &faces).frame();
+            let outwards: Vec<_> = frame.quads.iter().map(|quad| quad.outward).collect();
             assert_eq!(outwards[..2], [[0.0, -1.0], [-1.0, 0.0]]);
             assert!(Vec2::from(outwards[2]).distance(Vec2::splat(0.5_f32.sqrt())) < 1e-6);
-            assert!(outline.quads.iter().all(|quad| quad.own_ends == OWN_END_LOW | OWN_END_HIGH));
-            assert_eq!((outline.quads[0].low_ndc, outline.quads[0].high_ndc), ([0.0, 0.0], [0.5, 0.0]));
-            assert_eq!((outline.quads[0].q, outline.quads[0].width_ndc), ([4.0; 2], [0.05; 2]));
+            assert!(frame.quads.iter().all(|quad| quad.own_ends == OWN_END_LOW | OWN_END_HIGH));
+            assert_eq!((frame.quads[0].low_ndc, frame.quads[0].high_ndc), ([0.0, 0.0], [0.5, 0.0]));
+            assert_eq!((frame.quads[0].q, frame.quads[0].width_ndc), ([4.0; 2], [0.05; 2]));
         }
     }
 
     #[test]
     fn edge_along_the_light_is_counted_and_has_no_quad() {
         let positions = [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, 1.0]];
-        let outline = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Directional).outline();
-        assert_eq!(outline.counters.silhouette_edges, 3);
-        assert_eq!(outline.counters.point_edges, 1);
-        assert_eq!(outline.quads.iter().map(|quad| quad.edge_id).collect::<Vec<_>>(), [0, 2]);
+        let frame = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Directional).frame();
+        assert_eq!(frame.counters.silhouette_edges, 3);
+        assert_eq!(frame.counters.point_edges, 1);
+        assert_eq!(frame.quads.iter().map(|quad| quad.edge_id).collect::<Vec<_>>(), [0, 2]);
     }
 
     #[test]
     fn edges_are_cut_at_the_near_plane_and_behind_the_light() {
         // 0 and 1 lie before the light, 2 behind it.
         let positions = [[-1.0, 0.0, -4.0], [1.0, 0.0, -4.0], [0.0, 1.0, 4.0]];
-        let outline = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Spot(DVec3::ZERO)).outline();
-        assert_eq!(outline.counters.quads, 3);
-        let [base, left, right] = [0, 1, 2].map(|i| outline.quads[i]);
+        let frame = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Spot(Vec3::ZERO)).frame();
+        assert_eq!(frame.counters.quads, 3);
+        let [base, left, right] = [0, 1, 2].map(|i| frame.quads[i]);
         assert_eq!(base.own_ends, OWN_END_LOW | OWN_END_HIGH);
         assert_eq!((base.low_ndc, base.high_ndc, base.outward), ([-0.25, 0.0], [0.25, 0.0], [0.0, -1.0]));
         for (quad, sign) in [(left, -1.0), (right, 1.0)] {
@@ -245,12 +245,12 @@ mod tests {
 
     #[test]
     fn edges_are_cut_where_their_smoothie_leaves_the_view() {
-        let outline = TestScene::flat(&[[0.0, 0.0], [3.0, 0.0], [0.0, 0.5]], &[[0, 1, 2]]).outline();
-        let cut = outline.quads[0];
+        let frame = TestScene::flat(&[[0.0, 0.0], [3.0, 0.0], [0.0, 0.5]], &[[0, 1, 2]]).frame();
+        let cut = frame.quads[0];
         assert_eq!(cut.own_ends, OWN_END_LOW);
         assert!((cut.high_ndc[0] - 1.05).abs() < 1e-6);
 
-        let outside = TestScene::flat(&[[1.1, 0.0], [3.0, 0.0], [1.1, 0.5]], &[[0, 1, 2]]).outline();
+        let outside = TestScene::flat(&[[1.1, 0.0], [3.0, 0.0], [1.1, 0.5]], &[[0, 1, 2]]).frame();
         assert_eq!((outside.counters.silhouette_edges, outside.counters.quads), (3, 0));
     }
 
@@ -258,9 +258,9 @@ mod tests {
     fn nothing_behind_the_light_or_beyond_the_far_plane_has_quads() {
         for z in [0.5, 2.0, -9.5] {
             let positions = [[0.0, 0.0, z], [0.5, 0.0, z], [0.0, 0.5, z]];
-            let outline = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Spot(DVec3::ZERO)).outline();
-            assert_eq!(outline.counters.silhouette_edges, 3);
-            assert_eq!((outline.counters.quads, outline.counters.corners), (0, 0), "at {z}");
+            let frame = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Spot(Vec3::ZERO)).frame();
+            assert_eq!(frame.counters.silhouette_edges, 3);
+            assert_eq!((frame.counters.quads, frame.counters.corners), (0, 0), "at {z}");
         }
     }
 }

@@ -3,17 +3,16 @@
 use std::collections::BTreeMap;
 
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Corner, Counters, Edge, INCIDENCE_LIST, INCIDENCE_NONE, LIT_WORDS_PER_BLOCK,
-    LightView, OUTLINE_WORDS_PER_BLOCK, Quad, SilhouetteEdge, WorkItem, incidence,
+    BLOCK_SIZE, Caster, CasterLight, Edge, Face, INCIDENCE_LIST, INCIDENCE_NONE, LightView, WorkItem, incidence,
 };
-use glam::{DVec3, Mat4, Vec4};
+use glam::{Mat4, Vec3, Vec4};
 
-use crate::{BuildCorners, DetectSilhouette, ExtrudeEdges};
+use crate::{FrameInputs, FrameOutputs, run_frame};
 
 /// Looks down the z axis with x to the right and y up.
 pub(crate) enum TestLight {
     /// At a point, half a right angle to each side, near plane at distance 1, far plane at 9.
-    Spot(DVec3),
+    Spot(Vec3),
     /// From +z; sees -1..1 in x and y, depth 0 at z = 4, depth 8 at z = -4.
     Directional,
 }
@@ -24,16 +23,6 @@ pub(crate) struct TestScene {
     pub(crate) light: TestLight,
     pub(crate) width_ndc: f32,
     pub(crate) capacity: u32,
-}
-
-/// What the outline stages write.
-pub(crate) struct Outline {
-    pub(crate) edges: Vec<Edge>,
-    pub(crate) silhouettes: Vec<SilhouetteEdge>,
-    pub(crate) outline_sides: Vec<u32>,
-    pub(crate) quads: Vec<Quad>,
-    pub(crate) corners: Vec<Corner>,
-    pub(crate) counters: Counters,
 }
 
 struct Topology {
@@ -53,61 +42,37 @@ impl TestScene {
         Self { positions: positions.to_vec(), faces: faces.to_vec(), light, width_ndc: 0.05, capacity: 10_000 }
     }
 
-    pub(crate) fn outline(&self) -> Outline {
+    pub(crate) fn frame(&self) -> FrameOutputs {
         let topology = self.topology();
         let caster = self.caster(&topology);
-        let casters = [caster];
-        let caster_lights = [self.caster_light()];
-        let blocks = caster.edge_count.div_ceil(BLOCK_SIZE);
-        let edge_items: Vec<_> = (0..blocks).map(|block| WorkItem { caster: 0, block }).collect();
-        let view = LightView { edge_item_count: blocks, ..self.view() };
+        let face_items = items(caster.face_count);
+        let edge_items = items(caster.edge_count);
         let positions: Vec<u32> = self.positions.iter().flatten().map(|value| value.to_bits()).collect();
-        let capacity = self.capacity as usize;
-        let mut counters = Counters::default();
-        let mut silhouettes = vec![SilhouetteEdge::default(); capacity];
-        // Rubbish, so that a word that is not written shows.
-        let mut outline_sides = vec![u32::MAX; (blocks * OUTLINE_WORDS_PER_BLOCK) as usize];
-        let mut quads = vec![Quad::default(); capacity];
-        let mut corners = vec![Corner::default(); capacity];
-        DetectSilhouette {
-            view: &view,
+        let faces: Vec<_> = self.faces.iter().map(|&[a, b, c]| Face { a, b, c }).collect();
+        run_frame(&FrameInputs {
+            view: &LightView {
+                face_item_count: face_items.len() as u32,
+                edge_item_count: edge_items.len() as u32,
+                ..self.view()
+            },
+            face_items: &face_items,
             edge_items: &edge_items,
-            casters: &casters,
+            casters: &[caster],
+            caster_lights: &[self.caster_light()],
+            positions: &positions,
+            faces: &faces,
             edges: &topology.edges,
             incidences: &topology.incidences,
-            lit: &self.lit(),
-            silhouettes: &mut silhouettes,
-            outline_sides: &mut outline_sides,
-            counters: &mut counters,
-        }
-        .run();
-        ExtrudeEdges {
-            view: &view,
-            silhouettes: &silhouettes,
-            casters: &casters,
-            caster_lights: &caster_lights,
-            edges: &topology.edges,
-            positions: &positions,
-            quads: &mut quads,
-            counters: &mut counters,
-        }
-        .run();
-        BuildCorners {
-            view: &view,
-            quads: &quads,
-            casters: &casters,
-            caster_lights: &caster_lights,
-            positions: &positions,
-            outline_sides: &outline_sides,
             vertex_edges: &topology.vertex_edges,
-            corners: &mut corners,
-            counters: &mut counters,
-        }
-        .run();
-        silhouettes.truncate(counters.silhouette_edges as usize);
-        quads.truncate(counters.quads as usize);
-        corners.truncate(counters.corners as usize);
-        Outline { edges: topology.edges, silhouettes, outline_sides, quads, corners, counters }
+        })
+    }
+
+    /// (low vertex, high vertex, left, right) of the silhouette.
+    pub(crate) fn silhouette(&self) -> Vec<(u32, u32, u32, u32)> {
+        let edges = self.topology().edges;
+        let vertices = |edge_id: u32| (edges[edge_id as usize].low_vertex, edges[edge_id as usize].high_vertex);
+        let silhouettes = self.frame().silhouettes.into_iter();
+        silhouettes.map(|edge| (vertices(edge.edge_id).0, vertices(edge.edge_id).1, edge.left, edge.right)).collect()
     }
 
     fn topology(&self) -> Topology {
@@ -155,39 +120,34 @@ impl TestScene {
         }
     }
 
-    fn lit(&self) -> Vec<u32> {
-        let mut lit = vec![0; self.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize];
-        for (face, corners) in self.faces.iter().enumerate() {
-            let [a, b, c] = corners.map(|vertex| DVec3::from(self.positions[vertex as usize].map(f64::from)));
-            let towards_light = match self.light {
-                TestLight::Spot(position) => position - a,
-                TestLight::Directional => DVec3::Z,
-            };
-            if (b - a).cross(c - a).dot(towards_light) > 0.0 {
-                lit[face / 32] |= 1 << (face % 32);
-            }
-        }
-        lit
-    }
-
     fn caster_light(&self) -> CasterLight {
         let light_clip_from_object = match self.light {
             TestLight::Spot(position) => {
                 let clip_from_eye =
                     Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::new(0.0, 0.0, -1.125, -1.0), -1.125 * Vec4::Z);
-                clip_from_eye * Mat4::from_translation(-position.as_vec3())
+                clip_from_eye * Mat4::from_translation(-position)
             }
             TestLight::Directional => {
                 Mat4::from_cols(Vec4::X, Vec4::Y, -0.125 * Vec4::Z, Vec4::new(0.0, 0.0, 0.5, 1.0))
             }
         };
-        CasterLight { light_clip_from_object: light_clip_from_object.to_cols_array(), casts: 1, ..Default::default() }
+        let light_object = match self.light {
+            TestLight::Spot(position) => position.extend(1.0),
+            TestLight::Directional => Vec4::Z,
+        };
+        CasterLight {
+            light_object: light_object.to_array().map(f32::to_bits),
+            light_clip_from_object: light_clip_from_object.to_cols_array(),
+            casts: 1,
+            ..Default::default()
+        }
     }
 
     fn view(&self) -> LightView {
         let perspective = matches!(self.light, TestLight::Spot(_));
         LightView {
             perspective: u32::from(perspective),
+            undecided_capacity: self.faces.len() as u32,
             silhouette_capacity: self.capacity,
             quad_capacity: self.capacity,
             corner_capacity: self.capacity,
@@ -199,4 +159,8 @@ impl TestScene {
             ..Default::default()
         }
     }
+}
+
+fn items(count: u32) -> Vec<WorkItem> {
+    (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { caster: 0, block }).collect()
 }
