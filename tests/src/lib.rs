@@ -1,5 +1,6 @@
 //! The harness of the tests: a shared device, stages run alone, meshes, lights, and comparers that can fail.
 
+pub mod ball;
 pub mod compare;
 pub mod frame;
 pub mod gpu;
@@ -9,5 +10,6 @@ pub mod lights;
 pub mod meshes;
 pub mod mirror_run;
 pub mod oracle;
+pub mod outline_gap;
 pub mod random;
 pub mod stage_run;

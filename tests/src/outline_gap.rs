@@ -1,0 +1,307 @@
+//! Looks for gaps between quads and corners around outline vertices.
+//!
+//! What must hold, whatever the mesh: a point of the image plane that no blocker covers, but that is nearer to a
+//! blocker than the smoothies are wide, lies in a quad or in a corner. For its nearest blocker point is on the boundary
+//! of the blockers' image: inside an outline edge, and then the edge's quad has it; or at a vertex, and then a corner.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use contrejour_layout::{Corner, OWN_END_HIGH, OWN_END_LOW, Quad};
+use glam::{DVec2, Mat4, Vec3, Vec4, Vec4Swizzles};
+
+/// How densely to look.
+#[derive(Clone, Copy, Debug)]
+pub struct GapSearch {
+    /// Distance of the tried points from their vertex, in NDC. Range: well above rounding (1e-4), below every width.
+    pub radius_ndc: f64,
+    /// Points tried around each vertex.
+    pub directions: u32,
+    /// At most so many vertices, evenly chosen from all.
+    pub max_vertices: usize,
+}
+
+/// Default: radius 0.001, 720 directions, 2000 vertices.
+impl Default for GapSearch {
+    fn default() -> Self {
+        Self { radius_ndc: 1e-3, directions: 720, max_vertices: 2000 }
+    }
+}
+
+/// A point beside an outline vertex that neither a blocker nor a smoothie covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutlineGap {
+    /// Index of the caster.
+    pub caster: u32,
+    /// The vertex.
+    pub vertex_id: u32,
+    /// Where the vertex is, in NDC.
+    pub apex_ndc: DVec2,
+    /// Direction from the vertex to the point, radians counter-clockwise from +x.
+    pub direction: f64,
+}
+
+/// Every uncovered point that the search tries around the outline vertices in view.
+///
+/// `blockers` are the images of all faces of all casters in NDC; see [`blocker_image`].
+pub fn outline_gaps(
+    quads: &[Quad],
+    corners: &[Corner],
+    blockers: &[[DVec2; 3]],
+    search: &GapSearch,
+) -> Vec<OutlineGap> {
+    let vertices = outline_vertices(quads);
+    let stride = vertices.len().div_ceil(search.max_vertices.max(1)).max(1);
+    let reach = 2.0 * search.radius_ndc;
+    let quad_grid = Grid::new(quads.iter().map(|quad| quad_box(quad, reach)));
+    let corner_grid = Grid::new(corners.iter().map(|corner| around(ndc(corner.apex_ndc), reach)));
+    let blocker_grid = Grid::new(blockers.iter().map(|corners| box_around(corners, reach)));
+    // What is cut off here is a thousandth of a radian as seen from the vertex.
+    let tolerance = 1e-3 * search.radius_ndc;
+
+    let mut gaps = Vec::new();
+    for (&(caster, vertex_id), &apex_ndc) in vertices.iter().step_by(stride) {
+        let near_quads = quad_grid.at(apex_ndc);
+        let near_corners = corner_grid.at(apex_ndc);
+        let near_blockers = blocker_grid.at(apex_ndc);
+        for step in 0..search.directions {
+            // Off the axes, where edges of literal meshes lie.
+            let direction = TAU * (f64::from(step) + 0.37) / f64::from(search.directions);
+            let point = apex_ndc + search.radius_ndc * DVec2::from_angle(direction);
+            let covered = near_blockers.iter().any(|&i| distance_to_triangle(&blockers[i], point) <= tolerance)
+                || near_quads.iter().any(|&i| quad_covers(&quads[i], point, tolerance))
+                || near_corners.iter().any(|&i| corner_covers(&corners[i], point, tolerance));
+            if !covered {
+                gaps.push(OutlineGap { caster, vertex_id, apex_ndc, direction });
+            }
+        }
+    }
+    gaps
+}
+
+/// Images of a caster's faces in NDC, without what is in front of the near plane or behind the far one.
+///
+/// `positions` are scaled by the caster's `position_scale`, as `light_clip_from_object` expects.
+pub fn blocker_image(positions: &[Vec3], faces: &[[u32; 3]], light_clip_from_object: &Mat4) -> Vec<[DVec2; 3]> {
+    let clip: Vec<Vec4> = positions.iter().map(|position| light_clip_from_object * position.extend(1.0)).collect();
+    let mut image = Vec::new();
+    for face in faces {
+        let polygon: Vec<Vec4> = face.iter().map(|&vertex| clip[vertex as usize]).collect();
+        let polygon = clip_polygon(&polygon, |clip| clip.z);
+        let polygon = clip_polygon(&polygon, |clip| clip.w - clip.z);
+        let polygon: Vec<DVec2> = polygon.iter().map(|clip| clip.xy().as_dvec2() / f64::from(clip.w)).collect();
+        for i in 2..polygon.len() {
+            image.push([polygon[0], polygon[i - 1], polygon[i]]);
+        }
+    }
+    image
+}
+
+/// The part of a convex polygon where a distance, linear in clip space, is not negative. Sutherland & Hodgman 1974.
+fn clip_polygon(polygon: &[Vec4], distance: impl Fn(Vec4) -> f32) -> Vec<Vec4> {
+    let mut inside = Vec::new();
+    for (i, &to) in polygon.iter().enumerate() {
+        let from = polygon[(i + polygon.len() - 1) % polygon.len()];
+        let (from_distance, to_distance) = (distance(from), distance(to));
+        if (from_distance >= 0.0) != (to_distance >= 0.0) {
+            inside.push(from.lerp(to, from_distance / (from_distance - to_distance)));
+        }
+        if to_distance >= 0.0 {
+            inside.push(to);
+        }
+    }
+    inside
+}
+
+/// Vertices in view at which quads have their own end, and where they are.
+fn outline_vertices(quads: &[Quad]) -> BTreeMap<(u32, u32), DVec2> {
+    let mut vertices = BTreeMap::new();
+    for quad in quads {
+        let low = (OWN_END_LOW, quad.low_vertex, quad.low_ndc);
+        let high = (OWN_END_HIGH, quad.high_vertex, quad.high_ndc);
+        for (own_end, vertex_id, apex_ndc) in [low, high] {
+            let apex_ndc = ndc(apex_ndc);
+            if quad.own_ends & own_end != 0 && apex_ndc.abs().max_element() <= 1.0 {
+                vertices.insert((quad.caster, vertex_id), apex_ndc);
+            }
+        }
+    }
+    vertices
+}
+
+fn ndc(point: [f32; 2]) -> DVec2 {
+    DVec2::from(point.map(f64::from))
+}
+
+fn quad_covers(quad: &Quad, point: DVec2, tolerance: f64) -> bool {
+    let (low, high, outward) = (ndc(quad.low_ndc), ndc(quad.high_ndc), ndc(quad.outward));
+    let length = (high - low).length();
+    // The edge itself, for the outward direction of a short one is rounded; at an end that is no end, `outward` rules.
+    let along = (high - low).try_normalize().unwrap_or(outward.perp());
+    let across = (point - low).dot(outward);
+    let distance_along = (point - low).dot(along);
+    let share = (distance_along / length.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let width = f64::from(quad.width_ndc[0]) * (1.0 - share) + f64::from(quad.width_ndc[1]) * share;
+    (-tolerance..=width + tolerance).contains(&across) && (-tolerance..=length + tolerance).contains(&distance_along)
+}
+
+fn corner_covers(corner: &Corner, point: DVec2, tolerance: f64) -> bool {
+    let from_apex = point - ndc(corner.apex_ndc);
+    from_apex.length() <= f64::from(corner.width_ndc) + tolerance
+        && ndc(corner.begin).perp_dot(from_apex) >= -tolerance
+        && from_apex.perp_dot(ndc(corner.end)) >= -tolerance
+        && ndc(corner.middle).dot(from_apex) >= -tolerance
+}
+
+/// Zero inside.
+fn distance_to_triangle(triangle: &[DVec2; 3], point: DVec2) -> f64 {
+    let [a, b, c] = *triangle;
+    let sides = [(b - a).perp_dot(point - a), (c - b).perp_dot(point - b), (a - c).perp_dot(point - c)];
+    let area = (b - a).perp_dot(c - a);
+    if area != 0.0 && sides.iter().all(|side| side * area > 0.0) {
+        return 0.0;
+    }
+    [(a, b), (b, c), (c, a)].map(|(from, to)| distance_to_segment(from, to, point)).into_iter().fold(f64::MAX, f64::min)
+}
+
+fn distance_to_segment(from: DVec2, to: DVec2, point: DVec2) -> f64 {
+    let delta = to - from;
+    let share = ((point - from).dot(delta) / delta.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    point.distance(from + share * delta)
+}
+
+type Box2 = (DVec2, DVec2);
+
+fn box_around(points: &[DVec2], reach: f64) -> Box2 {
+    let min = points.iter().copied().fold(DVec2::MAX, DVec2::min);
+    let max = points.iter().copied().fold(DVec2::MIN, DVec2::max);
+    (min - reach, max + reach)
+}
+
+fn around(point: DVec2, reach: f64) -> Box2 {
+    box_around(&[point], reach)
+}
+
+fn quad_box(quad: &Quad, reach: f64) -> Box2 {
+    let (low, high, outward) = (ndc(quad.low_ndc), ndc(quad.high_ndc), ndc(quad.outward));
+    let rim = [low + f64::from(quad.width_ndc[0]) * outward, high + f64::from(quad.width_ndc[1]) * outward];
+    box_around(&[low, high, rim[0], rim[1]], reach)
+}
+
+/// Which boxes lie near a point of the view.
+struct Grid {
+    cells: Vec<Vec<usize>>,
+}
+
+impl Grid {
+    const SIDE: usize = 128;
+
+    fn new(boxes: impl Iterator<Item = Box2>) -> Self {
+        let mut cells = vec![Vec::new(); Self::SIDE * Self::SIDE];
+        for (i, (min, max)) in boxes.enumerate() {
+            if max.min_element() < -1.0 || min.max_element() > 1.0 {
+                continue;
+            }
+            for y in Self::cell(min.y)..=Self::cell(max.y) {
+                for x in Self::cell(min.x)..=Self::cell(max.x) {
+                    cells[y * Self::SIDE + x].push(i);
+                }
+            }
+        }
+        Self { cells }
+    }
+
+    fn at(&self, point: DVec2) -> &[usize] {
+        &self.cells[Self::cell(point.y) * Self::SIDE + Self::cell(point.x)]
+    }
+
+    fn cell(coordinate: f64) -> usize {
+        // Saturates: what is outside the view falls into the cells at its border.
+        ((0.5 * (coordinate + 1.0) * Self::SIDE as f64) as usize).min(Self::SIDE - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use contrejour_layout::CORNER_WEDGE;
+
+    use super::*;
+
+    const TRIANGLE: [[f32; 2]; 3] = [[-0.5, -0.4], [0.5, -0.4], [0.0, 0.6]];
+
+    fn normal(from: [f32; 2], to: [f32; 2]) -> [f32; 2] {
+        // The right of a counter-clockwise edge is outside.
+        (ndc(to) - ndc(from)).perp().normalize().as_vec2().to_array().map(|value| -value)
+    }
+
+    fn closed_triangle() -> (Vec<Quad>, Vec<Corner>, Vec<[DVec2; 3]>) {
+        let mut quads = Vec::new();
+        let mut corners = Vec::new();
+        for i in 0..3 {
+            let next = (i + 1) % 3;
+            let outward = normal(TRIANGLE[i], TRIANGLE[next]);
+            let next_outward = normal(TRIANGLE[next], TRIANGLE[(i + 2) % 3]);
+            quads.push(Quad {
+                low_ndc: TRIANGLE[i],
+                high_ndc: TRIANGLE[next],
+                outward,
+                width_ndc: [0.05; 2],
+                low_vertex: i as u32,
+                high_vertex: next as u32,
+                own_ends: OWN_END_LOW | OWN_END_HIGH,
+                ..Default::default()
+            });
+            corners.push(Corner {
+                apex_ndc: TRIANGLE[next],
+                begin: outward,
+                middle: (ndc(outward) + ndc(next_outward)).normalize().as_vec2().to_array(),
+                end: next_outward,
+                width_ndc: 0.05,
+                vertex_id: next as u32,
+                kind: CORNER_WEDGE,
+                ..Default::default()
+            });
+        }
+        (quads, corners, vec![TRIANGLE.map(ndc)])
+    }
+
+    #[test]
+    fn a_closed_triangle_has_no_gap() {
+        let (quads, corners, blockers) = closed_triangle();
+        assert_eq!(outline_gaps(&quads, &corners, &blockers, &GapSearch::default()), []);
+    }
+
+    #[test]
+    fn a_missing_corner_is_found() {
+        let (quads, mut corners, blockers) = closed_triangle();
+        let missing = corners.swap_remove(1);
+        let gaps = outline_gaps(&quads, &corners, &blockers, &GapSearch::default());
+        assert!(gaps.len() > 100 && gaps.iter().all(|gap| gap.vertex_id == missing.vertex_id), "{gaps:?}");
+    }
+
+    #[test]
+    fn a_missing_quad_is_found() {
+        let (mut quads, corners, blockers) = closed_triangle();
+        quads.swap_remove(0);
+        assert!(!outline_gaps(&quads, &corners, &blockers, &GapSearch::default()).is_empty());
+    }
+
+    #[test]
+    fn a_corner_turned_by_two_degrees_is_found() {
+        let (quads, mut corners, blockers) = closed_triangle();
+        let turned = DVec2::from_angle(2_f64.to_radians()).rotate(ndc(corners[0].begin));
+        corners[0].begin = turned.as_vec2().to_array();
+        assert!(!outline_gaps(&quads, &corners, &blockers, &GapSearch::default()).is_empty());
+    }
+
+    #[test]
+    fn faces_across_the_near_plane_are_cut() {
+        let perspective = Mat4::from_cols_array(&[
+            1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.25, -1.0, 0.0, 0.0, -1.25, 0.0,
+        ]);
+        let positions = [Vec3::new(-1.0, 0.0, -2.0), Vec3::new(1.0, 0.0, -2.0), Vec3::new(0.0, 1.0, 2.0)];
+        let image = blocker_image(&positions, &[[0, 1, 2]], &perspective);
+        assert_eq!(image.len(), 2);
+        assert!(image.iter().flatten().all(|point| point.is_finite() && point.y >= 0.0));
+    }
+}
