@@ -1,1 +1,32 @@
 //! The small forward renderer behind the contrejour command line.
+//!
+//! [`Gpu::open`] finds a device without a window, [`Renderer`] brings a scene to it and draws it frame by frame:
+//! diffuse and ambient light on interpolated normals, the shadow of one light, four samples a pixel. It uses the
+//! library as any renderer would.
+
+mod frame_uniforms;
+mod gpu;
+mod local_space;
+mod map_views;
+mod measurements;
+mod picture_pass;
+mod png;
+mod readback;
+mod renderer;
+mod scene_meshes;
+mod shaders;
+mod silhouette_lines;
+mod silhouettes;
+mod stage_timer;
+mod targets;
+mod views;
+
+pub use gpu::{DeviceFault, Gpu, OpenGpuError};
+pub use local_space::LocalSpace;
+pub use measurements::{Measurements, Spread, StageCost};
+pub use png::{SaveError, save_file, save_png};
+pub use readback::{ReadError, read_buffer, read_texture};
+pub use renderer::{DrawError, NewRendererError, Renderer};
+pub use scene_meshes::MeshTooLarge;
+pub use silhouettes::read_silhouettes;
+pub use views::View;

@@ -1,0 +1,98 @@
+//! `contrejour plan`: what a frame of a scene does, and what it leaves out and why.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use contrejour_mesh::{BuildOptions, EdgeClass, TopologyAwareMesh};
+use contrejour_plan::{
+    Capacity, CasterFacts, DeviceFacts, FramePlan, MeshFacts, ObjectBox, Outputs, PlanInput, SceneFacts,
+    ShadowSettings, views,
+};
+use contrejour_render::Gpu;
+use contrejour_scene::Scene;
+use serde::Serialize;
+
+use crate::args::PlanArguments;
+use crate::failure::{Failure, one_line};
+use crate::output::{print, warn};
+use crate::scenes;
+
+#[derive(Serialize)]
+struct DevicePlan {
+    /// `null` where there is no device.
+    device: Option<String>,
+    plan: FramePlan,
+}
+
+pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
+    let scene = scenes::open(arguments.scene.as_deref())?;
+    let settings = arguments.shadow.applied_to(scene.shadow)?;
+    let (device, facts) = match Gpu::open() {
+        Ok(gpu) => (Some(gpu.description()), gpu.facts()),
+        Err(error) => {
+            warn(&format!("{}; the plan is for a device with WebGPU's defaults", one_line(&error)));
+            (None, DeviceFacts::default())
+        }
+    };
+    let plan = plan(&scene, &settings, &facts)?;
+    print(&if arguments.json {
+        serde_json::to_string_pretty(&DevicePlan { device, plan })?
+    } else {
+        format!("device: {}\n{plan}", device.as_deref().unwrap_or("none, WebGPU's defaults"))
+    })
+}
+
+fn plan(scene: &Scene, settings: &ShadowSettings, device: &DeviceFacts) -> Result<FramePlan, Failure> {
+    let views = views(&scene.light)?;
+    let view = views.first().ok_or("the light has no view")?;
+    let facts = scene_facts(scene)?;
+    Ok(FramePlan::new(&PlanInput {
+        scene: &facts,
+        view,
+        settings,
+        device,
+        outputs: Outputs::Maps,
+        capacity: Capacity::default(),
+    })?)
+}
+
+fn scene_facts(scene: &Scene) -> Result<SceneFacts, Failure> {
+    let mut facts = SceneFacts::default();
+    let mut known = HashMap::new();
+    for placed in &scene.meshes {
+        if !placed.casts {
+            facts.receivers.push(placed.name.clone());
+            continue;
+        }
+        let key = Arc::as_ptr(&placed.mesh);
+        if !known.contains_key(&key) {
+            let topology =
+                TopologyAwareMesh::build(&placed.mesh.positions, &placed.mesh.triangles, &BuildOptions::default())?;
+            facts.meshes.push(mesh_facts(&topology));
+            known.insert(key, (facts.meshes.len() - 1, topology.bounds_min, topology.bounds_max));
+        }
+        let (mesh, min, max) = known[&key];
+        let bounds = ObjectBox { min, max, world_from_object: placed.world_from_object };
+        facts.casters.push(CasterFacts {
+            name: placed.name.clone(),
+            mesh,
+            bounds: Some(bounds),
+            own_position_words: 0,
+        });
+    }
+    Ok(facts)
+}
+
+fn mesh_facts(topology: &TopologyAwareMesh) -> MeshFacts {
+    let candidates = &topology.edge_classes[..topology.candidate_edge_count as usize];
+    let is_other = |class: &&EdgeClass| matches!(class, EdgeClass::Border | EdgeClass::NonManifold);
+    let other_edges = candidates.iter().filter(is_other).count() as u32;
+    MeshFacts {
+        vertices: topology.positions.len() as u32,
+        faces: topology.faces.len() as u32,
+        two_face_edges: topology.candidate_edge_count - other_edges,
+        other_edges,
+        incidence_words: topology.incidences.len() as u32,
+        vertex_edges: topology.vertex_edges.len() as u32,
+    }
+}

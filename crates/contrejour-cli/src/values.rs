@@ -1,0 +1,61 @@
+//! Values on the command line.
+
+use contrejour_plan::SmoothieWidth;
+use contrejour_scene::Scene;
+
+/// `x,y,z`: three finite numbers, straight to `f32`.
+pub fn parse_vector(text: &str) -> Result<[f32; 3], String> {
+    let numbers = text.split(',').map(parse_finite).collect::<Result<Vec<_>, _>>()?;
+    numbers.try_into().map_err(|numbers: Vec<f32>| format!("three numbers are needed, as in 1,2.5,-3, not {}", numbers.len()))
+}
+
+fn parse_finite(text: &str) -> Result<f32, String> {
+    let number: f32 = text.trim().parse().map_err(|_| format!("{text:?} is no number"))?;
+    if number.is_finite() { Ok(number) } else { Err(format!("{text:?} is no finite 32-bit number")) }
+}
+
+/// `WxH` in pixels.
+pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=Scene::MAX_SIDE).contains(side));
+    (text.split_once(['x', 'X']))
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| format!("give width and height as in 1280x720, each from 1 to {}", Scene::MAX_SIDE))
+}
+
+/// A part of the light's image plane, or `light`.
+pub fn parse_width(text: &str) -> Result<SmoothieWidth, String> {
+    match text {
+        "light" => Ok(SmoothieWidth::FromLightSize),
+        number => parse_finite(number).map(SmoothieWidth::Ndc),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors() {
+        assert_eq!(parse_vector("1,-2.5, 3e-4"), Ok([1.0, -2.5, 3e-4]));
+        // One rounding: by way of f64 this would be 1.0.
+        assert_eq!(parse_vector("1.000000059604644775390625001,0,0"), Ok([1.000_000_1, 0.0, 0.0]));
+        for text in ["1,2", "1,2,3,4", "", "1,2,x", "1,,3", "nan,0,0", "inf,0,0", "0,-inf,0", "1e40,0,0"] {
+            assert!(parse_vector(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn sizes() {
+        assert_eq!(parse_size("1280x720"), Ok([1280, 720]));
+        for text in ["1280", "x720", "0x1", "1x0", "-1x2", "99999x1", "1x2x3"] {
+            assert!(parse_size(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn widths() {
+        assert_eq!(parse_width("light"), Ok(SmoothieWidth::FromLightSize));
+        assert_eq!(parse_width("0.02"), Ok(SmoothieWidth::Ndc(0.02)));
+        assert!(parse_width("nan").is_err());
+    }
+}

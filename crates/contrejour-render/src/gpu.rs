@@ -1,0 +1,153 @@
+//! A device without a window.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use contrejour_plan::DeviceFacts;
+
+/// A device, its queue and what went wrong on it.
+#[derive(Debug)]
+pub struct Gpu {
+    /// Name and driver of the adapter.
+    pub adapter_info: wgpu::AdapterInfo,
+    /// Samples of a pixel in pictures: 4 where the device can, else 1.
+    pub sample_count: u32,
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    faults: Faults,
+}
+
+/// The first error that the device reported outside of any call.
+#[derive(Clone, Debug, Default)]
+struct Faults(Arc<Mutex<Option<String>>>);
+
+/// Why no device could be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenGpuError {
+    /// There is no driver.
+    #[error(
+        "no graphics device was found; install a Vulkan driver (without a graphics card: the software driver of the package mesa-vulkan-drivers)"
+    )]
+    NoAdapter(#[source] wgpu::RequestAdapterError),
+    /// The adapter cannot do what WebGPU promises.
+    #[error(
+        "the graphics device {adapter} cannot run contrejour; choose another one with WGPU_BACKEND or VK_DRIVER_FILES"
+    )]
+    NoDevice {
+        /// Name of the adapter.
+        adapter: String,
+        /// What it lacks.
+        source: wgpu::RequestDeviceError,
+    },
+}
+
+/// The device reported an error that no call returned, or was lost.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the graphics device failed: {0}")]
+pub struct DeviceFault(String);
+
+impl Gpu {
+    /// Opens the fastest device that there is; software drivers count as devices.
+    ///
+    /// Timestamps, blending of 32-bit floats and larger buffers and textures than WebGPU's defaults are asked for
+    /// where the adapter has them. `WGPU_BACKEND` in the environment chooses a backend.
+    ///
+    /// # Errors
+    ///
+    /// [`OpenGpuError`] when there is no driver or the device lacks a default of WebGPU.
+    pub fn open() -> Result<Self, OpenGpuError> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(OpenGpuError::NoAdapter)?;
+        let adapter_info = adapter.get_info();
+        let wanted = contrejour_gpu::Shadows::optional_features() | wgpu::Features::TIMESTAMP_QUERY;
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("contrejour"),
+            required_features: contrejour_gpu::Shadows::required_features() | (adapter.features() & wanted),
+            required_limits: limits(&adapter.limits()),
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|source| OpenGpuError::NoDevice { adapter: adapter_info.name.clone(), source })?;
+
+        let faults = Faults::default();
+        let reported = faults.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| reported.note(error.to_string())));
+        let lost = faults.clone();
+        device.set_device_lost_callback(move |reason, message| {
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                lost.note(format!("device lost: {message}"));
+            }
+        });
+        let sample_count = sample_count(&adapter);
+        Ok(Self { adapter_info, sample_count, device, queue, faults })
+    }
+
+    /// One line that names the device and its driver.
+    pub fn description(&self) -> String {
+        let wgpu::AdapterInfo { name, backend, driver, driver_info, .. } = &self.adapter_info;
+        let driver = format!("{driver} {driver_info}");
+        match driver.trim() {
+            "" => format!("{name} ({backend})"),
+            driver => format!("{name} ({backend}, {driver})"),
+        }
+    }
+
+    /// What the frame plan needs to know of the device.
+    pub fn facts(&self) -> DeviceFacts {
+        let limits = self.device.limits();
+        DeviceFacts {
+            float32_blendable: self.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE),
+            max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
+            max_buffer_size: limits.max_buffer_size,
+            max_texture_dimension_2d: limits.max_texture_dimension_2d,
+        }
+    }
+
+    /// Tells what the device reported outside of any call.
+    ///
+    /// # Errors
+    ///
+    /// [`DeviceFault`] with the first report.
+    pub fn check(&self) -> Result<(), DeviceFault> {
+        match self.faults.first() {
+            Some(message) => Err(DeviceFault(message)),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Faults {
+    fn note(&self, message: String) {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // Reports go over many lines; the first says what happened.
+        first.get_or_insert_with(|| message.split_whitespace().collect::<Vec<_>>().join(" "));
+    }
+
+    fn first(&self) -> Option<String> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+/// WebGPU's defaults, with room for larger meshes and pictures where the adapter has it.
+fn limits(adapter: &wgpu::Limits) -> wgpu::Limits {
+    let required = contrejour_gpu::Shadows::required_limits();
+    wgpu::Limits {
+        max_buffer_size: required.max_buffer_size.max(adapter.max_buffer_size),
+        max_storage_buffer_binding_size: required
+            .max_storage_buffer_binding_size
+            .max(adapter.max_storage_buffer_binding_size),
+        max_texture_dimension_2d: required.max_texture_dimension_2d.max(adapter.max_texture_dimension_2d),
+        ..required
+    }
+}
+
+fn sample_count(adapter: &wgpu::Adapter) -> u32 {
+    let formats = [crate::targets::COLOR_FORMAT, crate::targets::DEPTH_FORMAT];
+    let all_can = formats.iter().all(|&format| adapter.get_texture_format_features(format).flags.sample_count_supported(4));
+    if all_can { 4 } else { 1 }
+}

@@ -1,0 +1,83 @@
+//! The light's maps as grey pictures.
+
+use image::RgbaImage;
+
+/// A map as a picture, and what its greys mean.
+#[derive(Clone, Debug)]
+pub struct MapView {
+    /// The picture.
+    pub picture: RgbaImage,
+    /// What white and black stand for, one line.
+    pub legend: String,
+}
+
+/// Grey of the farthest surface; nothing at all is black, so that the two can be told apart.
+const FARTHEST_GREY: f64 = 40.0;
+
+/// Depths as greys: the nearest white, the farthest dark grey, `empty` or more black.
+///
+/// `depth` is in local units; `world_per_local` turns it into the world's for the legend.
+pub(crate) fn depth_view(depth: &[f32], size: u32, empty: f32, world_per_local: f64) -> MapView {
+    let seen = || depth.iter().copied().filter(|&depth| depth < empty);
+    let nearest = f64::from(seen().fold(f32::INFINITY, f32::min));
+    let farthest = f64::from(seen().fold(f32::NEG_INFINITY, f32::max));
+    let range = farthest - nearest;
+    let grey = |depth: f32| {
+        if !(depth < empty) {
+            return 0;
+        }
+        let share = if range > 0.0 { (f64::from(depth) - nearest) / range } else { 0.0 };
+        (255.0 + share * (FARTHEST_GREY - 255.0)).round() as u8
+    };
+    let legend = if range.is_finite() {
+        let [nearest, farthest] = [nearest, farthest].map(|depth| depth * world_per_local);
+        format!("white: depth {nearest:.4}, dark grey: depth {farthest:.4}, black: nothing")
+    } else {
+        "black: nothing".to_owned()
+    };
+    MapView { picture: grey_picture(depth, size, grey), legend }
+}
+
+/// Alpha as greys.
+pub(crate) fn alpha_view(alpha: &[f32], size: u32) -> MapView {
+    let grey = |alpha: f32| (255.0 * alpha.clamp(0.0, 1.0)).round() as u8;
+    MapView {
+        picture: grey_picture(alpha, size, grey),
+        legend: "black: alpha 0, at a silhouette; white: alpha 1, at the rim of a smoothie or nothing".to_owned(),
+    }
+}
+
+fn grey_picture(values: &[f32], size: u32, grey: impl Fn(f32) -> u8) -> RgbaImage {
+    RgbaImage::from_fn(size, size, |x, y| {
+        let grey = grey(values[y as usize * size as usize + x as usize]);
+        image::Rgba([grey, grey, grey, 255])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn greys(view: &MapView) -> Vec<u8> {
+        view.picture.pixels().map(|pixel| pixel.0[0]).collect()
+    }
+
+    #[test]
+    fn near_is_bright_and_nothing_is_black() {
+        let view = depth_view(&[2.0, 4.0, 3.0, 10.0], 2, 10.0, 0.5);
+        assert_eq!(greys(&view), [255, 40, 148, 0]);
+        assert_eq!(view.legend, "white: depth 1.0000, dark grey: depth 2.0000, black: nothing");
+    }
+
+    #[test]
+    fn an_empty_map_and_a_flat_one_have_no_range() {
+        assert_eq!(greys(&depth_view(&[10.0; 4], 2, 10.0, 1.0)), [0; 4]);
+        assert_eq!(greys(&depth_view(&[3.0; 4], 2, 10.0, 1.0)), [255; 4]);
+        assert_eq!(greys(&depth_view(&[f32::NAN; 4], 2, 10.0, 1.0)), [0; 4]);
+    }
+
+    #[test]
+    fn alpha_is_grey() {
+        assert_eq!(greys(&alpha_view(&[0.0, 1.0, 0.5, 2.0], 2)), [0, 255, 128, 255]);
+    }
+}

@@ -1,0 +1,88 @@
+//! Textures and buffers back on the CPU, with a wait: for pictures and tools, not for frames.
+
+use image::RgbaImage;
+
+use crate::gpu::{DeviceFault, Gpu};
+
+/// Why nothing came back.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The device failed before.
+    #[error(transparent)]
+    Device(#[from] DeviceFault),
+    /// Waiting for the device failed.
+    #[error("waiting for the graphics device failed")]
+    Poll(#[from] wgpu::PollError),
+    /// The bytes cannot be mapped.
+    #[error("cannot map what the graphics device wrote; it may be out of memory: use a smaller picture")]
+    Map(#[from] wgpu::BufferAsyncError),
+    /// The mapped bytes cannot be read.
+    #[error("cannot read what the graphics device wrote")]
+    Range(#[from] wgpu::MapRangeError),
+}
+
+/// Reads the first `size` bytes of a buffer.
+///
+/// # Errors
+///
+/// [`ReadError`] when the device fails.
+pub fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, ReadError> {
+    if size == 0 {
+        return Ok(Vec::new());
+    }
+    let staging = staging_buffer(gpu, size);
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
+    gpu.queue.submit([encoder.finish()]);
+    read_staging(gpu, &staging)
+}
+
+/// Reads one plane of a texture: rows from the top, without padding. `bytes_per_texel` is that of its format.
+///
+/// # Errors
+///
+/// [`ReadError`] when the device fails.
+pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_texel: u32) -> Result<Vec<u8>, ReadError> {
+    let row = texture.width() * bytes_per_texel;
+    let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let staging = staging_buffer(gpu, u64::from(padded_row) * u64::from(texture.height()));
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &staging,
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded_row), rows_per_image: None },
+        },
+        texture.size(),
+    );
+    gpu.queue.submit([encoder.finish()]);
+    let padded = read_staging(gpu, &staging)?;
+    Ok(padded.chunks_exact(padded_row as usize).flat_map(|padded| &padded[..row as usize]).copied().collect())
+}
+
+/// Reads a texture of four bytes a texel as a picture.
+pub(crate) fn read_picture(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, ReadError> {
+    let texels = read_texture(gpu, texture, 4)?;
+    // The sizes agree by construction, so an empty picture never comes out of here.
+    Ok(RgbaImage::from_raw(texture.width(), texture.height(), texels).unwrap_or_default())
+}
+
+fn staging_buffer(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size,
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    })
+}
+
+fn read_staging(gpu: &Gpu, staging: &wgpu::Buffer) -> Result<Vec<u8>, ReadError> {
+    gpu.check()?;
+    let (sender, receiver) = std::sync::mpsc::channel();
+    // The receiver outlives the wait below.
+    staging.map_async(wgpu::MapMode::Read, .., move |result| sender.send(result).unwrap_or_default());
+    gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+    gpu.check()?;
+    receiver.try_recv().unwrap_or(Err(wgpu::BufferAsyncError))?;
+    Ok(staging.get_mapped_range(..)?.to_vec())
+}

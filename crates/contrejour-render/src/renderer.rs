@@ -1,0 +1,313 @@
+//! Draws a scene frame by frame, as a program of a user's would.
+
+use std::collections::{HashMap, VecDeque};
+use std::sync::Arc;
+
+use contrejour_gpu::{
+    AddMeshError, CasterInput, CountersError, FrameInput, MeshHandle, NewShadowsError, PassTimer, Positions,
+    PrepareError, ShadowOptions, Shadows,
+};
+use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError, TriangleMesh};
+use contrejour_plan::Light;
+use contrejour_scene::Scene;
+use cpu_time::ThreadTime;
+use glam::DMat4;
+use image::RgbaImage;
+
+use crate::frame_uniforms::FrameUniforms;
+use crate::gpu::{DeviceFault, Gpu};
+use crate::local_space::LocalSpace;
+use crate::measurements::{CounterLog, Measurements};
+use crate::picture_pass::{PicturePass, Shading};
+use crate::readback::{ReadError, read_picture};
+use crate::scene_meshes::{MeshTooLarge, SceneMeshes};
+use crate::stage_timer::StageTimer;
+use crate::targets::Targets;
+
+/// A scene on the device.
+#[derive(Debug)]
+pub struct Renderer {
+    pub(crate) gpu: Gpu,
+    pub(crate) local: LocalSpace,
+    pub(crate) shadows: Shadows,
+    pub(crate) casters: Vec<Caster>,
+    pub(crate) meshes: SceneMeshes,
+    pub(crate) pass: PicturePass,
+    pub(crate) targets: Targets,
+    pub(crate) uniforms: FrameUniforms,
+    pub(crate) background: wgpu::Color,
+    /// The light of the last frame.
+    pub(crate) light_local: Light,
+    lit_pipeline: wgpu::RenderPipeline,
+    timer: StageTimer,
+    counter_log: CounterLog,
+    submissions: VecDeque<wgpu::SubmissionIndex>,
+    frames: Vec<FrameCost>,
+    /// Waits of [`Renderer::draw_complete`], which are no waits of the pipeline's own.
+    waits_asked_for: u64,
+}
+
+/// A mesh that throws a shadow.
+#[derive(Debug)]
+pub(crate) struct Caster {
+    pub handle: MeshHandle,
+    pub local_from_object: DMat4,
+    pub topology: Arc<TopologyAwareMesh>,
+}
+
+/// What one frame cost the CPU.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameCost {
+    pub cpu_ms: f64,
+    pub upload_bytes: u64,
+}
+
+/// Frames that may be under way on the device; more would only fill memory.
+const MAX_FRAMES_IN_FLIGHT: usize = 3;
+
+/// Frames after which a picture that still misses something is given up; buffers grow to what was counted, so two are
+/// enough.
+const MAX_REPEATS: usize = 8;
+
+/// Why a scene cannot be brought to the device.
+#[derive(Debug, thiserror::Error)]
+pub enum NewRendererError {
+    /// The picture is larger than the device's textures.
+    #[error("a picture of {width}x{height} is too large, the graphics device allows {limit} pixels a side; choose a smaller size")]
+    SizeTooLarge {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// Most pixels a side.
+        limit: u32,
+    },
+    /// A mesh does not fit.
+    #[error(transparent)]
+    MeshTooLarge(#[from] MeshTooLarge),
+    /// The shadow settings or the device do not allow shadows.
+    #[error(transparent)]
+    Shadows(#[from] NewShadowsError),
+    /// A mesh that casts has no topology.
+    #[error("mesh {mesh:?} cannot cast a shadow")]
+    Topology {
+        /// Name of the mesh in the scene.
+        mesh: String,
+        /// What is wrong with it.
+        source: TopologyError,
+    },
+    /// A mesh that casts does not fit.
+    #[error(transparent)]
+    AddMesh(#[from] AddMeshError),
+    /// The timestamps cannot be set up.
+    #[error("the graphics device's timestamps cannot be used")]
+    Timer(#[from] wgpu_profiler::CreationError),
+    /// The device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceFault),
+}
+
+/// Why a frame cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum DrawError {
+    /// The light or the device does not allow this frame.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+    /// The counters did not come back.
+    #[error(transparent)]
+    Counters(#[from] CountersError),
+    /// The timestamps are not used as they should.
+    #[error("the frame's timestamps cannot be used")]
+    Timer(#[from] wgpu_profiler::EndFrameError),
+    /// Waiting for the device failed.
+    #[error("waiting for the graphics device failed")]
+    Poll(#[from] wgpu::PollError),
+    /// The device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceFault),
+    /// Something could not be read back.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The buffers never became large enough.
+    #[error("the frame still misses something after {MAX_REPEATS} repetitions; use a smaller mesh or a smaller map")]
+    Incomplete,
+}
+
+impl Renderer {
+    /// Uploads a scene.
+    ///
+    /// # Errors
+    ///
+    /// [`NewRendererError`] when something does not fit on the device.
+    pub fn new(gpu: Gpu, scene: &Scene, options: &ShadowOptions) -> Result<Self, NewRendererError> {
+        let [width, height] = scene.size;
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        if width.max(height) > limit {
+            return Err(NewRendererError::SizeTooLarge { width, height, limit });
+        }
+        let local = LocalSpace::around(&scene.camera);
+        let mut shadows = Shadows::new(&gpu.device, options)?;
+        let casters = add_casters(&mut shadows, scene, &local)?;
+        let pass = PicturePass::new(&gpu, &shadows);
+        let meshes = SceneMeshes::new(&gpu, scene, &local, pass.surface_layout())?;
+        let lit_pipeline = pass.pipeline(&gpu, Shading::Lit);
+        let targets = Targets::new(&gpu, scene.size);
+        let timer = StageTimer::new(&gpu)?;
+        gpu.check()?;
+        let [red, green, blue] = scene.background.map(f64::from);
+        Ok(Self {
+            uniforms: FrameUniforms::new(scene, &local.camera(&scene.camera)),
+            background: wgpu::Color { r: red, g: green, b: blue, a: 1.0 },
+            counter_log: CounterLog::default(),
+            submissions: VecDeque::new(),
+            frames: Vec::new(),
+            waits_asked_for: 0,
+            light_local: local.light(&scene.light),
+            gpu,
+            local,
+            shadows,
+            casters,
+            meshes,
+            pass,
+            targets,
+            lit_pipeline,
+            timer,
+        })
+    }
+
+    /// Draws one frame; waits only where too many frames are under way.
+    ///
+    /// # Errors
+    ///
+    /// [`DrawError`] when the light is no light or the device fails.
+    pub fn draw(&mut self, light: &Light) -> Result<(), DrawError> {
+        let clock = ThreadTime::now();
+        self.light_local = self.local.light(light);
+        self.uniforms = self.uniforms.with_light(&self.light_local);
+        self.prepare()?;
+        let uniform_bytes = self.pass.upload(&self.gpu, &self.uniforms);
+        let mut encoder = self.encoder();
+        self.shadows.encode(&mut encoder, &mut self.timer);
+        let query = self.timer.begin("picture", &mut encoder);
+        {
+            let mut pass =
+                self.targets.begin_pass(&mut encoder, self.background, StageTimer::render_writes(&query));
+            self.pass.draw(&mut pass, &self.lit_pipeline, &self.shadows, &self.meshes);
+        }
+        self.timer.end(query, &mut encoder);
+        self.counter_log.record(&self.gpu, &self.shadows, &mut encoder);
+        self.timer.resolve(&mut encoder);
+        let submission = self.gpu.queue.submit([encoder.finish()]);
+        self.timer.end_frame()?;
+        let cpu_ms = 1000.0 * clock.elapsed().as_secs_f64();
+
+        let upload_bytes = uniform_bytes + self.shadows.stats().upload_bytes;
+        self.frames.push(FrameCost { cpu_ms, upload_bytes });
+        self.timer.collect();
+        self.limit_frames_in_flight(submission)?;
+        self.gpu.check()?;
+        Ok(())
+    }
+
+    /// Draws a frame again until its buffers held everything; waits for each.
+    ///
+    /// # Errors
+    ///
+    /// [`DrawError`] when the light is no light or the device fails.
+    pub fn draw_complete(&mut self, light: &Light) -> Result<(), DrawError> {
+        for _ in 0..MAX_REPEATS {
+            self.draw(light)?;
+            self.waits_asked_for += 1;
+            match self.shadows.wait_for_counters(&self.gpu.device) {
+                // Frames without smoothies count nothing and miss nothing.
+                Err(CountersError::NoFrame) => return Ok(()),
+                Ok(_) if self.shadows.is_complete() => return Ok(()),
+                Ok(_) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+        Err(DrawError::Incomplete)
+    }
+
+    /// Reads the last picture back; waits for it.
+    ///
+    /// # Errors
+    ///
+    /// [`ReadError`] when the device fails.
+    pub fn picture(&self) -> Result<RgbaImage, ReadError> {
+        read_picture(&self.gpu, &self.targets.picture)
+    }
+
+    /// What the frames so far cost; waits for the last of them.
+    ///
+    /// # Errors
+    ///
+    /// [`DrawError`] when the device fails.
+    pub fn measurements(&mut self) -> Result<Measurements, DrawError> {
+        self.gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+        self.timer.collect();
+        let counters = self.counter_log.read(&self.gpu)?;
+        let edges = self.casters.iter().map(|caster| caster.topology.edges.len() as u64).sum();
+        let mut stats = self.shadows.stats();
+        stats.readback_waits -= self.waits_asked_for;
+        Ok(Measurements::new(self.gpu.description(), edges, &self.frames, &counters, self.timer.stages(), &stats))
+    }
+
+    pub(crate) fn encoder(&self) -> wgpu::CommandEncoder {
+        self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
+    }
+
+    fn prepare(&mut self) -> Result<(), PrepareError> {
+        let casters: Vec<CasterInput<'_>> = (self.casters.iter())
+            .map(|caster| CasterInput {
+                mesh: caster.handle,
+                world_from_object: caster.local_from_object,
+                positions: Positions::OfMesh,
+            })
+            .collect();
+        // The library's world is our local space.
+        let input = FrameInput { light: &self.light_local, casters: &casters };
+        self.shadows.prepare(&self.gpu.device, &self.gpu.queue, &input)
+    }
+
+    fn limit_frames_in_flight(&mut self, submission: wgpu::SubmissionIndex) -> Result<(), wgpu::PollError> {
+        self.submissions.push_back(submission);
+        self.gpu.device.poll(wgpu::PollType::Poll)?;
+        while self.submissions.len() > MAX_FRAMES_IN_FLIGHT {
+            let submission_index = self.submissions.pop_front();
+            self.gpu.device.poll(wgpu::PollType::Wait { submission_index, timeout: None })?;
+        }
+        Ok(())
+    }
+}
+
+/// Builds the topology of each mesh that casts once, however often it stands in the scene.
+fn add_casters(
+    shadows: &mut Shadows,
+    scene: &Scene,
+    local: &LocalSpace,
+) -> Result<Vec<Caster>, NewRendererError> {
+    let mut known = HashMap::new();
+    let mut casters = Vec::new();
+    for placed in scene.meshes.iter().filter(|placed| placed.casts && !placed.mesh.triangles.is_empty()) {
+        let key = Arc::as_ptr(&placed.mesh);
+        let (handle, topology) = match known.get(&key) {
+            Some((handle, topology)) => (*handle, Arc::clone(topology)),
+            None => {
+                let TriangleMesh { positions, triangles, .. } = &*placed.mesh;
+                let topology = TopologyAwareMesh::build(positions, triangles, &BuildOptions::default())
+                    .map_err(|source| NewRendererError::Topology { mesh: placed.name.clone(), source })?;
+                let topology = Arc::new(topology);
+                let handle = shadows.add_mesh(Arc::clone(&topology))?;
+                known.insert(key, (handle, Arc::clone(&topology)));
+                (handle, topology)
+            }
+        };
+        casters.push(Caster {
+            handle,
+            local_from_object: local.local_from_world() * placed.world_from_object,
+            topology,
+        });
+    }
+    Ok(casters)
+}

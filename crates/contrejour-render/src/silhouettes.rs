@@ -1,0 +1,27 @@
+//! Silhouettes alone: found on the device, read back for tools.
+
+use contrejour_gpu::Shadows;
+use contrejour_layout::{Counters, SilhouetteEdge};
+use contrejour_plan::BufferKind;
+
+use crate::readback::{ReadError, read_buffer};
+use crate::Gpu;
+
+/// Reads the silhouette edges of the last frame, sorted by caster and edge; waits for them.
+///
+/// # Errors
+///
+/// [`ReadError`] when the device fails.
+pub fn read_silhouettes(gpu: &Gpu, shadows: &Shadows) -> Result<Vec<SilhouetteEdge>, ReadError> {
+    let (Some(counters), Some(silhouettes)) =
+        (shadows.buffer(BufferKind::Counters), shadows.buffer(BufferKind::Silhouettes))
+    else {
+        return Ok(Vec::new());
+    };
+    let counters: Counters = bytemuck::pod_read_unaligned(&read_buffer(gpu, counters, size_of::<Counters>() as u64)?);
+    let bytes = u64::from(counters.silhouette_edges) * size_of::<SilhouetteEdge>() as u64;
+    let mut edges: Vec<SilhouetteEdge> =
+        bytemuck::pod_collect_to_vec(&read_buffer(gpu, silhouettes, bytes.min(silhouettes.size()))?);
+    edges.sort_unstable_by_key(|edge| (edge.caster, edge.edge_id));
+    Ok(edges)
+}

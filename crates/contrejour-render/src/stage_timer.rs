@@ -1,0 +1,143 @@
+//! How long each stage takes on the device.
+
+use contrejour_gpu::PassTimer;
+use wgpu_profiler::{GpuProfiler, GpuProfilerQuery, GpuProfilerSettings, GpuTimerQueryResult};
+
+use crate::Gpu;
+
+/// Times passes by timestamps; where the device has none, nothing is timed.
+pub(crate) struct StageTimer {
+    profiler: GpuProfiler,
+    timestamp_period: f32,
+    stages: Vec<TimedStage>,
+}
+
+impl std::fmt::Debug for StageTimer {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("StageTimer").field("stages", &self.stages).finish_non_exhaustive()
+    }
+}
+
+/// Times of one stage, one a frame that came back.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimedStage {
+    /// Its name.
+    pub name: String,
+    /// Time of each frame. Unit: milliseconds.
+    pub times_ms: Vec<f64>,
+}
+
+/// Frames whose timestamps may be under way before the oldest is dropped.
+const MAX_PENDING_FRAMES: usize = 8;
+
+impl StageTimer {
+    pub fn new(gpu: &Gpu) -> Result<Self, wgpu_profiler::CreationError> {
+        let settings = GpuProfilerSettings {
+            enable_timer_queries: gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY),
+            enable_debug_groups: false,
+            max_num_pending_frames: MAX_PENDING_FRAMES,
+        };
+        Ok(Self {
+            profiler: GpuProfiler::new(&gpu.device, settings)?,
+            timestamp_period: gpu.queue.get_timestamp_period(),
+            stages: Vec::new(),
+        })
+    }
+
+    /// Records the copy of a frame's timestamps; the last commands of a frame.
+    pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        self.profiler.resolve_queries(encoder);
+    }
+
+    /// Ends a frame after its submission.
+    pub fn end_frame(&mut self) -> Result<(), wgpu_profiler::EndFrameError> {
+        self.profiler.end_frame()
+    }
+
+    /// Takes the times that have arrived.
+    pub fn collect(&mut self) {
+        while let Some(passes) = self.profiler.process_finished_frame(self.timestamp_period) {
+            add_frame(&mut self.stages, &passes);
+        }
+    }
+
+    /// The stages in the order in which they first ran.
+    pub fn stages(&self) -> &[TimedStage] {
+        &self.stages
+    }
+}
+
+/// Adds a frame's passes; passes of the same name are one stage, and their times are added.
+fn add_frame(stages: &mut Vec<TimedStage>, passes: &[GpuTimerQueryResult]) {
+    let mut frame: Vec<(&str, f64)> = Vec::new();
+    for pass in passes {
+        let Some(time) = &pass.time else { continue };
+        let time_ms = 1000.0 * (time.end - time.start);
+        match frame.iter_mut().find(|(name, _)| *name == pass.label) {
+            Some((_, sum_ms)) => *sum_ms += time_ms,
+            None => frame.push((&pass.label, time_ms)),
+        }
+    }
+    for (name, time_ms) in frame {
+        match stages.iter_mut().find(|stage| stage.name == name) {
+            Some(stage) => stage.times_ms.push(time_ms),
+            None => stages.push(TimedStage { name: name.into(), times_ms: vec![time_ms] }),
+        }
+    }
+}
+
+impl PassTimer for StageTimer {
+    type Query = GpuProfilerQuery;
+
+    fn begin(&mut self, name: &'static str, encoder: &mut wgpu::CommandEncoder) -> GpuProfilerQuery {
+        self.profiler.begin_pass_query(name, encoder)
+    }
+
+    fn compute_writes(query: &GpuProfilerQuery) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+        query.compute_pass_timestamp_writes()
+    }
+
+    fn render_writes(query: &GpuProfilerQuery) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        query.render_pass_timestamp_writes()
+    }
+
+    fn end(&mut self, query: GpuProfilerQuery, encoder: &mut wgpu::CommandEncoder) {
+        self.profiler.end_query(encoder, query);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pass(label: &str, begin: f64, end: f64) -> GpuTimerQueryResult {
+        GpuTimerQueryResult {
+            label: label.into(),
+            pid: 0,
+            tid: std::thread::current().id(),
+            time: Some(begin..end),
+            nested_queries: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn passes_of_one_name_are_one_stage() {
+        let mut stages = Vec::new();
+        add_frame(&mut stages, &[pass("b", 0.0, 1.0), pass("a", 1.0, 1.5), pass("b", 2.0, 2.25)]);
+        add_frame(&mut stages, &[pass("a", 3.0, 3.5)]);
+        assert_eq!(
+            stages,
+            [
+                TimedStage { name: "b".into(), times_ms: vec![1250.0] },
+                TimedStage { name: "a".into(), times_ms: vec![500.0, 500.0] }
+            ]
+        );
+    }
+
+    #[test]
+    fn a_pass_without_timestamps_counts_for_nothing() {
+        let mut stages = Vec::new();
+        add_frame(&mut stages, &[GpuTimerQueryResult { time: None, ..pass("a", 0.0, 1.0) }]);
+        assert!(stages.is_empty());
+    }
+}

@@ -1,0 +1,78 @@
+//! The textures that a picture is drawn into.
+
+use crate::Gpu;
+
+/// Format of pictures.
+pub(crate) const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+
+/// Format of the depth buffer; depth is reversed: 1 at the near plane, 0 where nothing was drawn.
+pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Colour, its samples and depth.
+#[derive(Debug)]
+pub(crate) struct Targets {
+    /// The resolved picture.
+    pub picture: wgpu::Texture,
+    picture_view: wgpu::TextureView,
+    /// Present where a pixel has several samples.
+    samples_view: Option<wgpu::TextureView>,
+    depth_view: wgpu::TextureView,
+}
+
+impl Targets {
+    pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
+        let texture = |label, format, sample_count, usage| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+                view_formats: &[],
+            })
+        };
+        let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let none = wgpu::TextureUsages::empty();
+        let picture = texture("picture", COLOR_FORMAT, 1, wgpu::TextureUsages::COPY_SRC);
+        let samples =
+            (gpu.sample_count > 1).then(|| texture("picture samples", COLOR_FORMAT, gpu.sample_count, none));
+        let depth = texture("picture depth", DEPTH_FORMAT, gpu.sample_count, none);
+        Self {
+            picture_view: view(&picture),
+            samples_view: samples.as_ref().map(view),
+            depth_view: view(&depth),
+            picture,
+        }
+    }
+
+    /// Begins a pass that clears the picture.
+    pub fn begin_pass<'encoder>(
+        &self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        background: wgpu::Color,
+        timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) -> wgpu::RenderPass<'encoder> {
+        let (view, resolve_target, store) = match &self.samples_view {
+            Some(samples) => (samples, Some(&self.picture_view), wgpu::StoreOp::Discard),
+            None => (&self.picture_view, None, wgpu::StoreOp::Store),
+        };
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("picture"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(background), store },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.depth_view,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            timestamp_writes,
+            ..Default::default()
+        })
+    }
+}
