@@ -58,7 +58,8 @@ impl Materials {
                 "Kd" => match (diffuse_color(value), self.colors.last_mut()) {
                     (Some(diffuse), Some(color)) => *color = diffuse,
                     _ => {
-                        warnings.push(format!("{library}, line {}: not read, default colour used: {line:?}", index + 1))
+                        let place = format!("{library}, line {}", index + 1);
+                        warnings.push(format!("{place}: not read, default colour used: {line:?}"));
                     }
                 },
                 "map_Kd" => has_textures = true,

@@ -100,6 +100,12 @@ pub(super) struct Header {
 /// A problem with the line, from 1, where it is.
 pub(super) type HeaderError = (usize, &'static str);
 
+const ENCODINGS: &str = "unknown encoding; use ascii, binary_little_endian or binary_big_endian";
+const NO_COUNT: &str = "the number of elements is no number; correct it";
+const NO_ELEMENT: &str = "a property stands before the first element; put it after its element";
+const NO_PROPERTY: &str = "no property; write property TYPE NAME or property list TYPE TYPE NAME";
+const NO_END: &str = "the header has no end_header; export the file again";
+
 impl Header {
     pub(super) fn read(bytes: &[u8]) -> Result<Self, HeaderError> {
         let mut encoding = None;
@@ -107,10 +113,7 @@ impl Header {
         let mut start = 0;
         for line in 1.. {
             let rest = &bytes[start..];
-            let end = rest
-                .iter()
-                .position(|&byte| byte == b'\n' || byte == b'\r')
-                .ok_or((line, "the header has no end_header; export the file again"))?;
+            let end = rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').ok_or((line, NO_END))?;
             start += end + 1;
             if rest[end..].starts_with(b"\r\n") {
                 start += 1;
@@ -121,23 +124,15 @@ impl Header {
                 ["ply"] if line == 1 => {}
                 _ if line == 1 => return Err((1, "does not start with ply; is it a PLY file?")),
                 [] | ["comment" | "obj_info", ..] => {}
-                ["format", name, _] => {
-                    encoding = Some(
-                        encoding_named(name)
-                            .ok_or((line, "unknown encoding; use ascii, binary_little_endian or binary_big_endian"))?,
-                    )
-                }
+                ["format", name, _] => encoding = Some(encoding_named(name).ok_or((line, ENCODINGS))?),
                 ["element", name, count] => elements.push(Element {
                     name: name.to_owned(),
-                    count: count.parse().map_err(|_| (line, "the number of elements is no number; correct it"))?,
+                    count: count.parse().map_err(|_| (line, NO_COUNT))?,
                     properties: Vec::new(),
                 }),
                 ["property", ref of_property @ ..] => {
-                    let property = property(of_property)
-                        .ok_or((line, "not a property; write property TYPE NAME or property list TYPE TYPE NAME"))?;
-                    let element = elements
-                        .last_mut()
-                        .ok_or((line, "a property stands before the first element; put it after its element"))?;
+                    let element = elements.last_mut().ok_or((line, NO_ELEMENT))?;
+                    let property = property(of_property).ok_or((line, NO_PROPERTY))?;
                     element.properties.push(property);
                 }
                 ["end_header"] => {
@@ -151,7 +146,7 @@ impl Header {
                 _ => return Err((line, "no line of a PLY header; correct or delete it")),
             }
         }
-        Err((0, "the header has no end_header; export the file again"))
+        Err((0, NO_END))
     }
 }
 
