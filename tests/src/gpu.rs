@@ -59,10 +59,10 @@ fn open(features: wgpu::Features) -> Result<Gpu, String> {
 }
 
 impl Gpu {
-    /// A buffer that holds the bytes and, after them, zeros up to 16 bytes: an empty buffer cannot be bound.
+    /// A buffer that holds the bytes and, after them, zeros up to 64 bytes: a buffer must hold at least one record.
     pub fn upload(&self, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         let mut contents = bytes.to_vec();
-        contents.resize(bytes.len().max(16).next_multiple_of(4), 0);
+        contents.resize(bytes.len().max(64).next_multiple_of(4), 0);
         self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(label),
             contents: &contents,

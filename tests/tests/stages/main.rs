@@ -5,6 +5,7 @@ mod classify_faces;
 mod detect_silhouette;
 mod device_errors;
 mod extrude_edges;
+mod outline_balls;
 mod parity;
 mod refine_faces;
 mod resolve_faces;

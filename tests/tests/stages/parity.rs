@@ -23,6 +23,21 @@ const FILES: [&str; 9] = [
     "animated/RiggedFigure.glb",
 ];
 
+/// What has run when edges are extruded.
+pub const BEFORE_EXTRUSION: [&str; 6] =
+    ["classify_faces", "write_refine_args", "refine_faces", "resolve_faces", "detect_silhouette", "write_extrude_args"];
+
+/// What has run when corners are built.
+pub const BEFORE_CORNERS: [&str; 7] = [
+    "classify_faces",
+    "write_refine_args",
+    "refine_faces",
+    "resolve_faces",
+    "detect_silhouette",
+    "write_extrude_args",
+    "extrude_edges",
+];
+
 /// One mesh or many under one light, before the first stage.
 pub struct Case {
     /// Mesh and light, for messages.
