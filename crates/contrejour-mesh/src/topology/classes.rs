@@ -91,11 +91,11 @@ impl Neighbourhood<'_> {
     /// For two consistently wound faces, the apex of the one that runs along the edge and that of the other.
     fn apexes(&self, edge: &Edge) -> Option<[u32; 2]> {
         let [first, second] = *self.words(edge) else { return None };
-        match [first & INCIDENCE_ALONG, second & INCIDENCE_ALONG] {
-            [INCIDENCE_ALONG, 0] => Some([self.apex(edge, first), self.apex(edge, second)]),
-            [0, INCIDENCE_ALONG] => Some([self.apex(edge, second), self.apex(edge, first)]),
-            _ => None,
+        if (first ^ second) & INCIDENCE_ALONG == 0 {
+            return None;
         }
+        let (along, against) = if first & INCIDENCE_ALONG != 0 { (first, second) } else { (second, first) };
+        Some([self.apex(edge, along), self.apex(edge, against)])
     }
 
     fn classify(&self, edge: &Edge, apexes: Option<[u32; 2]>) -> Classified {
