@@ -1,0 +1,49 @@
+//! Silhouettes alone, left in a GPU buffer for stages of the caller's own.
+//!
+//! `cargo run --release -p contrejour --example silhouettes`
+
+#[allow(dead_code, reason = "each example uses its part")]
+mod common;
+
+use std::sync::Arc;
+
+use common::{Outcome, Torus};
+use contrejour::layout::{Counters, SilhouetteEdge};
+use contrejour::plan::BufferKind;
+use contrejour::prelude::*;
+
+fn main() -> Outcome {
+    let (device, queue) = common::open_device()?;
+    let torus = Torus::new(96, 48);
+    let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
+    let mut shadows = Shadows::new(&device, &options)?;
+    let mesh = TopologyAwareMesh::build(&torus.positions, &torus.triangles, &BuildOptions::default())?;
+    let topology = Arc::new(mesh);
+    let mesh = shadows.add_mesh(Arc::clone(&topology))?;
+
+    let light = common::light();
+    let caster = CasterInput { mesh, world_from_object: common::world_from_body(), positions: Positions::OfMesh };
+    shadows.prepare(&device, &queue, &FrameInput { light: &light, casters: &[caster] })?;
+    let mut encoder = device.create_command_encoder(&Default::default());
+    shadows.encode(&mut encoder, &mut Untimed);
+    queue.submit([encoder.finish()]);
+
+    // Here a renderer would bind both buffers to a stage of its own. The list is not in any order; its edges are.
+    let [Some(silhouettes), Some(counters)] =
+        [BufferKind::Silhouettes, BufferKind::Counters].map(|kind| shadows.buffer(kind))
+    else {
+        return Err("the plan lists no silhouettes".into());
+    };
+    let counters: Counters = bytemuck::pod_read_unaligned(&common::read_buffer(&device, &queue, counters)?);
+    let bytes = common::read_buffer(&device, &queue, silhouettes)?;
+    let mut edges: Vec<SilhouetteEdge> = bytemuck::pod_collect_to_vec(&bytes);
+    edges.truncate(counters.silhouette_edges as usize);
+    edges.sort_by_key(|edge| edge.edge_id);
+    println!("{} of {} edges are in the silhouette", edges.len(), topology.edges.len());
+    for silhouette in edges.iter().take(5) {
+        let edge = topology.edges[silhouette.edge_id as usize];
+        let multiplicity = i64::from(silhouette.left) - i64::from(silhouette.right);
+        println!("  {} - {}: {multiplicity:+}", edge.low_vertex, edge.high_vertex);
+    }
+    Ok(())
+}
