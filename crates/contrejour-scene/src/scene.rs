@@ -29,6 +29,8 @@ pub struct Scene {
     pub ambient: [f32; 3],
     /// Linear colour where there is no mesh. Range: 0 and up.
     pub background: [f32; 3],
+    /// What the loaders of mesh files left out, a line each.
+    pub warnings: Vec<String>,
 }
 
 impl Scene {
@@ -79,7 +81,8 @@ impl Scene {
     /// Works for any size and place, and for flat and empty meshes. The shadow stays in the light's cone on every
     /// frame of an [orbit](crate::orbit).
     pub fn around(file: MeshFile) -> Self {
-        frame(placed_meshes(file, &MeshSource::Given))
+        let warnings = file.warnings.clone();
+        Self { warnings, ..frame(placed_meshes(file, &MeshSource::Given)) }
     }
 
     /// Bounds of all meshes in world space, floors included; empty when there is no vertex.

@@ -12,13 +12,13 @@ use crate::shapes::Shape;
 use crate::{Bounds, Material, MeshSource, Scene, SceneMesh};
 
 /// From the meshes towards the light: above, left, in front.
-const TOWARDS_LIGHT: DVec3 = DVec3::new(-0.75, 1.15, 0.4);
+const TOWARDS_LIGHT: DVec3 = DVec3::new(-0.46, 0.85, 0.26);
 /// Distance of the light, over half the diagonal of the meshes.
-const LIGHT_DISTANCE: f64 = 4.0;
+const LIGHT_DISTANCE: f64 = 6.0;
 /// Radius of the light, over half the diagonal of the meshes.
-const LIGHT_RADIUS: f64 = 0.22;
+const LIGHT_RADIUS: f64 = 0.35;
 /// Warm, and as bright as white surfaces bear beside the ambient light.
-const LIGHT_COLOR: [f32; 3] = [1.0, 0.96, 0.9];
+const LIGHT_COLOR: [f32; 3] = [0.9, 0.86, 0.81];
 /// Along the camera's view: a three-quarter view from in front, right and above.
 const CAMERA_FORWARD: DVec3 = DVec3::new(-0.5, -0.5, -1.0);
 const CAMERA_FOV_Y_DEGREES: f64 = 32.0;
@@ -28,8 +28,10 @@ const STANDING_GAP: f64 = 1e-3;
 const FLAT_GAP: f64 = 0.25;
 /// Height over diagonal below which meshes are flat.
 const FLAT_HEIGHT: f64 = 5e-3;
-/// Side of the floor over what must lie on it.
-const FLOOR_MARGIN: f64 = 1.15;
+/// Radius of the floor over what must lie on it.
+const FLOOR_MARGIN: f64 = 1.1;
+/// Thickness of the floor over its radius.
+const FLOOR_THICKNESS: f64 = 0.04;
 const FLOOR_COLOR: [f32; 3] = [0.72, 0.7, 0.67];
 /// Points that stand for a circle.
 const CIRCLE_POINTS: u32 = 16;
@@ -42,10 +44,12 @@ pub(super) fn on_a_floor(mut meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
     let floor_y = bounds.min.y - gap * diagonal;
     let stage = Stage { bounds, floor_y, light_position: light_position(&bounds) };
 
-    let everywhere = stage.turned_points();
-    let half_side = FLOOR_MARGIN
+    let mut everywhere = stage.turned_points();
+    let floor_radius = FLOOR_MARGIN
         * everywhere.iter().map(|point| (*point - bounds.center()).with_y(0.0).length()).fold(0.0, f64::max);
-    meshes.push(floor_mesh(bounds.center().with_y(floor_y), half_side));
+    let floor_middle = bounds.center().with_y(floor_y);
+    everywhere.extend(circle(floor_middle, floor_radius));
+    meshes.push(floor_mesh(floor_middle, floor_radius));
     let all = meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union);
 
     let size = Scene::DEFAULT_SIZE;
@@ -59,6 +63,7 @@ pub(super) fn on_a_floor(mut meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
         shadow: ShadowSettings::default(),
         ambient: Scene::DEFAULT_AMBIENT,
         background: Scene::DEFAULT_BACKGROUND,
+        warnings: Vec::new(),
     }
 }
 
@@ -89,13 +94,11 @@ impl Stage {
     /// light goes around the meshes, these are all it must reach.
     fn turned_points(&self) -> Vec<DVec3> {
         let size = self.bounds.size();
-        let around = 0.5 * size.x.hypot(size.z) / (0.5 * TAU / f64::from(CIRCLE_POINTS)).cos();
+        let foot = self.bounds.center().with_y(self.floor_y);
         let mut points = Vec::new();
-        for step in 0..CIRCLE_POINTS {
-            let (sin, cos) = (TAU * f64::from(step) / f64::from(CIRCLE_POINTS)).sin_cos();
-            let on_circle = self.bounds.center() + DVec3::new(around * sin, 0.0, around * cos);
-            let top = on_circle.with_y(self.bounds.max.y);
-            points.extend([on_circle.with_y(self.floor_y), top, self.shadow(top)]);
+        for low in circle(foot, 0.5 * size.x.hypot(size.z)) {
+            let top = low.with_y(self.bounds.max.y);
+            points.extend([low, top, self.shadow(top)]);
         }
         points
     }
@@ -112,16 +115,28 @@ impl Stage {
     }
 }
 
-/// A square that receives and does not cast.
-fn floor_mesh(middle: DVec3, half_side: f64) -> SceneMesh {
-    // A unit square and a matrix: exact at any size and place.
-    let shape = Shape::Plane { size: [1.0; 2], segments: 1 };
-    let mesh = shape.generate().expect("a unit square is within all ranges");
+/// Corners of a regular polygon that holds the horizontal circle around `middle`.
+fn circle(middle: DVec3, radius: f64) -> impl Iterator<Item = DVec3> {
+    let step = TAU / f64::from(CIRCLE_POINTS);
+    let corner_radius = radius / (0.5 * step).cos();
+    (0..CIRCLE_POINTS).map(move |corner| {
+        let (sin, cos) = (step * f64::from(corner)).sin_cos();
+        middle + DVec3::new(corner_radius * sin, 0.0, corner_radius * cos)
+    })
+}
+
+/// A round slab that receives and does not cast; `middle` is the middle of its upper side.
+fn floor_mesh(middle: DVec3, floor_radius: f64) -> SceneMesh {
+    // A unit cylinder and a matrix: good at any size and place.
+    let shape = Shape::Cylinder { radius: 1.0, height: 1.0, segments: 96 };
+    let mesh = shape.generate().expect("a unit cylinder is within all ranges");
+    let scale = DVec3::new(floor_radius, FLOOR_THICKNESS * floor_radius, floor_radius);
+    let center = middle - DVec3::new(0.0, 0.5 * scale.y, 0.0);
     SceneMesh {
         name: "floor".to_owned(),
         source: MeshSource::Shape(shape),
         mesh: Arc::new(mesh),
-        world_from_object: DMat4::from_translation(middle) * DMat4::from_scale(DVec3::splat(2.0 * half_side)),
+        world_from_object: DMat4::from_translation(center) * DMat4::from_scale(scale),
         material: Material { base_color: Some(FLOOR_COLOR) },
         casts: false,
         receives: true,

@@ -14,7 +14,7 @@ const EYE: DVec3 = DVec3::new(0.2, 0.1, 0.88);
 const LAMP: DVec3 = DVec3::new(0.0, 0.8, 0.1);
 /// Radius of the lamp over the height of the room.
 const LAMP_RADIUS: f64 = 0.05;
-const LAMP_COLOR: [f32; 3] = [1.0, 0.95, 0.88];
+const LAMP_COLOR: [f32; 3] = [0.8, 0.76, 0.7];
 
 /// Whether most of the surface faces the middle: walls, floor and ceiling of a room.
 pub(super) fn is_room(meshes: &[SceneMesh], bounds: &Bounds) -> bool {
@@ -72,5 +72,6 @@ pub(super) fn seen_from_within(meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene 
         shadow: ShadowSettings::default(),
         ambient: Scene::DEFAULT_AMBIENT,
         background: Scene::DEFAULT_BACKGROUND,
+        warnings: Vec::new(),
     }
 }

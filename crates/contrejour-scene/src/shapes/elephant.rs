@@ -107,8 +107,8 @@ fn trunk(point: DVec3) -> f64 {
 fn ear(mirrored: DVec3) -> f64 {
     // About the vertical: the flap opens backwards and outwards from where it grows.
     let turn = DQuat::from_xyzw(0.0, 0.3826834323650898, 0.0, 0.9238795325112867);
-    let flap = ellipsoid(mirrored, dvec3(0.98, 1.9, 0.62), turn, dvec3(0.42, 0.46, 0.055));
-    let lobe = ellipsoid(mirrored, dvec3(1.02, 1.6, 0.58), turn, dvec3(0.28, 0.36, 0.05));
+    let flap = ellipsoid(mirrored, dvec3(0.98, 1.9, 0.62), turn, dvec3(0.42, 0.46, 0.08));
+    let lobe = ellipsoid(mirrored, dvec3(1.02, 1.6, 0.58), turn, dvec3(0.28, 0.36, 0.07));
     blend(flap, lobe, 0.1)
 }
 
@@ -119,7 +119,7 @@ fn tusk(mirrored: DVec3) -> f64 {
             (dvec3(1.46, 1.54, 0.19), 0.075),
             (dvec3(1.66, 1.28, 0.26), 0.07),
             (dvec3(1.88, 1.14, 0.29), 0.06),
-            (dvec3(2.1, 1.16, 0.27), 0.045),
+            (dvec3(2.1, 1.16, 0.27), 0.055),
         ],
     )
 }

@@ -9,7 +9,7 @@ pub(super) fn fence(size: [f64; 3], columns: u32, rows: u32, bar: f64) -> Surfac
     let half_depth = 0.5 * size[2];
     // Cells lie between neighbouring lines; odd columns of odd rows are holes, and all around is open air.
     let [cells_x, cells_y] = [lines_x.len() - 1, lines_y.len() - 1];
-    let solid = |x: usize, y: usize| x < cells_x && y < cells_y && (x % 2 == 0 || y % 2 == 0);
+    let solid = |x: usize, y: usize| x < cells_x && y < cells_y && (x.is_multiple_of(2) || y.is_multiple_of(2));
 
     let mut surface = Surface::default();
     for y in 0..cells_y {

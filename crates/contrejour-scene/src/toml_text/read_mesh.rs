@@ -28,13 +28,15 @@ const SHAPE_KEYS: [&[&str]; 8] = [
 const ALL_SHAPE_KEYS: &[&str] =
     &["kind", "size", "segments", "radius", "height", "tube_radius", "sides", "columns", "rows", "bar"];
 
-/// The meshes of one section: one, or as many as its file has.
-pub(super) fn read_meshes(section: &Section<'_>, base_dir: &Path) -> Result<Vec<SceneMesh>, SceneError> {
+/// The meshes of one section, one or as many as its file has, and what the loader warns about.
+pub(super) fn read_meshes(section: &Section<'_>, base_dir: &Path) -> Result<(Vec<SceneMesh>, Vec<String>), SceneError> {
+    let mut warnings = Vec::new();
     let mut meshes = match (section.get("shape"), section.get("file")) {
         (Some(shape), None) => vec![generated(&shape)?],
         (None, Some(file)) => {
             let path = base_dir.join(file.text()?);
-            let loaded = contrejour_mesh::load(&path).map_err(|error| file.refuse(error.into()))?;
+            let mut loaded = contrejour_mesh::load(&path).map_err(|error| file.refuse(error.into()))?;
+            warnings.append(&mut loaded.warnings);
             placed_meshes(loaded, &MeshSource::File(path))
         }
         (None, None) => return Err(section.refuse(Problem::ShapeOrFile)),
@@ -54,7 +56,7 @@ pub(super) fn read_meshes(section: &Section<'_>, base_dir: &Path) -> Result<Vec<
         mesh.casts = casts;
         mesh.receives = receives;
     }
-    Ok(meshes)
+    Ok((meshes, warnings))
 }
 
 fn generated(value: &Value<'_>) -> Result<SceneMesh, SceneError> {

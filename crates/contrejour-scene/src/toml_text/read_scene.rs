@@ -21,8 +21,11 @@ pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str) -> Result
     // What the scene as a whole lacks is told at its first line.
     let section = Section::new(document, "the scene", 0..0, table.get_ref(), SCENE_KEYS)?;
     let mut meshes: Vec<SceneMesh> = Vec::new();
+    let mut warnings = Vec::new();
     for mesh in section.require("mesh")?.sections("a mesh", MESH_KEYS)? {
-        meshes.extend(read_meshes(&mesh, base_dir)?);
+        let (placed, warned) = read_meshes(&mesh, base_dir)?;
+        meshes.extend(placed);
+        warnings.extend(warned);
         if meshes.len() > Scene::MAX_MESHES {
             return Err(mesh.refuse(Problem::TooManyMeshes));
         }
@@ -37,6 +40,7 @@ pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str) -> Result
         ambient: color("ambient", Scene::DEFAULT_AMBIENT)?,
         background: color("background", Scene::DEFAULT_BACKGROUND)?,
         meshes,
+        warnings,
     })
 }
 
