@@ -25,10 +25,11 @@ impl Ball {
         Self { value: value.into(), error: if value.is_subnormal() { FLUSH } else { 0.0 } }
     }
 
-    /// Whether a computed value can differ from another one computed elsewhere by more than the bounds allow.
+    /// Whether two computed values are as near to each other as the bound asks.
     pub fn allows(self, first: f32, second: f32) -> bool {
         let difference = (f64::from(first) - f64::from(second)).abs();
-        !(difference > 2.0 * self.error)
+        // NaN is allowed only where nothing can be said.
+        self.error.is_nan() || difference <= 2.0 * self.error
     }
 
     /// -1, 1, or 0 where the computed sign is left to rounding.
@@ -139,6 +140,7 @@ mod tests {
     fn bounds_are_tight_enough_to_find_a_wrong_digit() {
         let ball = Ball::exact(0.3) * Ball::exact(0.7) - Ball::exact(0.2);
         assert!(!ball.allows(0.3 * 0.7 - 0.2, 0.3 * 0.7 - 0.200_01));
+        assert!(!ball.allows(0.01, f32::NAN));
         assert_eq!(ball.sign(), 1);
     }
 

@@ -12,11 +12,11 @@ use contrejour_plan::ViewCounts;
 use contrejour_tests::compare::{Record, compare_record};
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
-use contrejour_tests::harness::{Outcome, gpu_trial};
+use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use libtest_mimic::Trial;
 
 use crate::outline_balls::{Direction, Image, clip_and_delta, image};
-use crate::parity::{BEFORE_CORNERS, for_each_case, run, stage};
+use crate::parity::{BEFORE_CORNERS, for_each_case, for_each_smooth_case, run, stage};
 
 /// Of the ends of all cases together, one in so many may be decided by rounding.
 const DECIDED_BY_ROUNDING: usize = 100;
@@ -28,6 +28,7 @@ pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("build_corners::equals_its_twin", equals_its_twin),
         gpu_trial("build_corners::counts_past_a_full_list", counts_past_a_full_list),
+        cpu_trial("build_corners::comparer_finds_planted_faults", comparer_finds_planted_faults),
     ]
 }
 
@@ -156,4 +157,32 @@ fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
         }
         Err("a corner is not in the complete list".into())
     })
+}
+
+/// Of faults in single corners at least nine in ten are found: the bounds are no excuse for everything.
+fn comparer_finds_planted_faults() -> Outcome {
+    let faults: [fn(&mut Vec<Corner>, usize); 5] = [
+        |corners, index| corners.truncate(index),
+        |corners, index| corners[index].begin[0] += 1e-2,
+        |corners, index| corners[index].end[1] += 1e-2,
+        |corners, index| corners[index].kind ^= 1,
+        |corners, index| corners[index].middle[1] = f32::NAN,
+    ];
+    let (mut planted, mut found) = ([0; 5], [0; 5]);
+    for_each_smooth_case(&BEFORE_CORNERS, |case| {
+        let mut twin = case.frame.clone();
+        twin.run_mirror("build_corners");
+        let expected = &twin.corners[..twin.counters.corners as usize];
+        for (index, fault) in (0..expected.len()).step_by(7).zip((0..faults.len()).cycle()) {
+            let mut faulty = expected.to_vec();
+            faults[fault](&mut faulty, index);
+            planted[fault] += 1;
+            found[fault] += usize::from(compare(&twin, expected, &faulty) != Ok(0));
+        }
+        Ok(())
+    })?;
+    if planted.iter().zip(found).all(|(&planted, found)| planted > 10 && found >= planted * 9 / 10) {
+        return Ok(());
+    }
+    Err(format!("of {planted:?} faults of each kind {found:?} were found"))
 }

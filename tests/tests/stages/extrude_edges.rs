@@ -6,17 +6,17 @@
 
 use std::collections::BTreeMap;
 
-use contrejour_layout::{Counters, Quad};
+use contrejour_layout::{Counters, OWN_END_HIGH, Quad};
 use contrejour_plan::ViewCounts;
 use contrejour_tests::ball::Ball;
 use contrejour_tests::compare::{Record, check_finite};
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
-use contrejour_tests::harness::{Outcome, gpu_trial};
+use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use libtest_mimic::Trial;
 
 use crate::outline_balls::{Clip, Image, clip_and_delta, image, ndc_of, q_of, width_of};
-use crate::parity::{BEFORE_EXTRUSION, for_each_case, run, stage};
+use crate::parity::{BEFORE_CORNERS, BEFORE_EXTRUSION, for_each_case, for_each_smooth_case, run, stage};
 
 /// Of the edges of all cases together, one in so many may be decided by rounding.
 const DECIDED_BY_ROUNDING: usize = 100;
@@ -25,6 +25,7 @@ pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("extrude_edges::equals_its_twin", equals_its_twin),
         gpu_trial("extrude_edges::counts_past_a_full_list", counts_past_a_full_list),
+        cpu_trial("extrude_edges::comparer_finds_planted_faults", comparer_finds_planted_faults),
     ]
 }
 
@@ -201,4 +202,31 @@ fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
         }
         Err("a quad is not in the complete list".into())
     })
+}
+
+/// Of faults in single quads at least nine in ten are found: the bounds are no excuse for everything.
+fn comparer_finds_planted_faults() -> Outcome {
+    let faults: [fn(&mut Vec<Quad>, usize); 6] = [
+        |quads, index| quads.truncate(index),
+        |quads, index| quads[index].low_ndc[0] += 1e-3,
+        |quads, index| quads[index].outward[1] += 1e-3,
+        |quads, index| quads[index].q[1] *= 1.001,
+        |quads, index| quads[index].own_ends ^= OWN_END_HIGH,
+        |quads, index| quads[index].width_ndc[1] = f32::NAN,
+    ];
+    let (mut planted, mut found) = ([0; 6], [0; 6]);
+    for_each_smooth_case(&BEFORE_CORNERS, |case| {
+        let expected = &case.frame.quads[..case.frame.counters.quads as usize];
+        for (index, fault) in (0..expected.len()).step_by(7).zip((0..faults.len()).cycle()) {
+            let mut faulty = expected.to_vec();
+            faults[fault](&mut faulty, index);
+            planted[fault] += 1;
+            found[fault] += usize::from(compare(&case.frame, expected, &faulty) != Ok(0));
+        }
+        Ok(())
+    })?;
+    if planted.iter().zip(found).all(|(&planted, found)| planted > 10 && found >= planted * 9 / 10) {
+        return Ok(());
+    }
+    Err(format!("of {planted:?} faults of each kind {found:?} were found"))
 }

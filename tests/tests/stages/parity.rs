@@ -47,10 +47,21 @@ pub struct Case {
 }
 
 /// Calls `check` for each mesh and light with a frame whose earlier stages have run on the CPU.
-pub fn for_each_case(stages_before: &[&str], mut check: impl FnMut(&Case) -> Outcome) -> Outcome {
-    for mesh in meshes() {
+pub fn for_each_case(stages_before: &[&str], check: impl FnMut(&Case) -> Outcome) -> Outcome {
+    for_each_case_of(&meshes(), stages_before, check)
+}
+
+/// The same for smooth meshes alone, whose outlines rounding hardly touches.
+pub fn for_each_smooth_case(stages_before: &[&str], check: impl FnMut(&Case) -> Outcome) -> Outcome {
+    let mut meshes = shapes();
+    meshes.retain(|mesh| ["torus", "knot"].contains(&mesh.name.as_str()));
+    for_each_case_of(&meshes, stages_before, check)
+}
+
+fn for_each_case_of(meshes: &[TestMesh], stages_before: &[&str], mut check: impl FnMut(&Case) -> Outcome) -> Outcome {
+    for mesh in meshes {
         let step = if mesh.face_count() > 500 { 6 } else { 3 };
-        for (index, light) in lights(&mesh).iter().enumerate().step_by(step) {
+        for (index, light) in lights(mesh).iter().enumerate().step_by(step) {
             let mut case = Case { name: format!("{}, light {index}", mesh.name), frame: frame(&mesh.parts, light) };
             for stage in stages_before {
                 case.frame.run_mirror(stage);
