@@ -29,14 +29,10 @@ fn resolve_faces(
     }
 }
 
-// A difference of coordinates has at most 278 bits and a sign: 9 limbs. The determinant has 27.
+// A difference of coordinates has at most 278 bits and a sign: 9 limbs. The determinant has 27. All numbers are held
+// in arrays of the largest size, so that one multiplication serves for all; how many limbs count is passed along.
 const MAX_LIMBS = 27u;
 alias Limbs = array<u32, MAX_LIMBS>;
-
-struct Signed {
-    magnitude: Limbs,
-    is_negative: bool,
-}
 
 // Coordinates that span n bits have differences below 2^(n + 1), minors below 2^(2 n + 3) and a determinant below
 // 2^(3 n + 6); with its sign that fits into 3 * `limbs` limbs when n + 3 fits into `limbs`.
@@ -44,33 +40,33 @@ fn is_determinant_positive(bits: FacingBits) -> bool {
     let edges = edge_span(bits);
     let light = light_span(bits);
     let limbs = (max(span_length(edges), span_length(light)) + 3u + 31u) / 32u;
-    var sum = Limbs();
+    var sum: Limbs;
     for (var x = 0u; x < 3u; x++) {
         let y = (x + 1u) % 3u;
         let z = (x + 2u) % 3u;
-        let p = difference(bits.b[x], bits.a[x], edges.begin, limbs);
-        let q_y = difference(bits.c[y], bits.a[y], edges.begin, limbs);
-        let q_z = difference(bits.c[z], bits.a[z], edges.begin, limbs);
-        let r_y = difference(bits.light[y], bits.light_origin[y], light.begin, limbs);
-        let r_z = difference(bits.light[z], bits.light_origin[z], light.begin, limbs);
-        var minor = Limbs();
-        add_product(&minor, q_y, limbs, r_z, limbs, 2u * limbs);
-        add_product(&minor, negated(q_z), limbs, r_y, limbs, 2u * limbs);
-        add_product(&sum, p, limbs, signed(minor, 2u * limbs), 2u * limbs, 3u * limbs);
+        var p = difference(bits.b[x], bits.a[x], edges.begin, limbs);
+        var q_y = difference(bits.c[y], bits.a[y], edges.begin, limbs);
+        var minus_q_z = difference(bits.a[z], bits.c[z], edges.begin, limbs);
+        var r_y = difference(bits.light[y], bits.light_origin[y], light.begin, limbs);
+        var r_z = difference(bits.light[z], bits.light_origin[z], light.begin, limbs);
+        var minor: Limbs;
+        add_product(&minor, &q_y, limbs, &r_z, limbs);
+        add_product(&minor, &minus_q_z, limbs, &r_y, limbs);
+        add_product(&sum, &p, limbs, &minor, 2u * limbs);
     }
     var any_bit = 0u;
     for (var i = 0u; i < 3u * limbs; i++) {
         any_bit |= sum[i];
     }
-    return any_bit != 0u && sum[3u * limbs - 1u] >> 31u == 0u;
+    return any_bit != 0u && sign_mask(sum[3u * limbs - 1u]) == 0u;
 }
 
 // x - y as integers on the grid that begins at this grid bit.
-fn difference(x: u32, y: u32, begin: u32, limbs: u32) -> Signed {
-    var result = Limbs();
+fn difference(x: u32, y: u32, begin: u32, limbs: u32) -> Limbs {
+    var result: Limbs;
     add_coordinate(&result, x, begin, limbs);
     add_coordinate(&result, y ^ 0x80000000u, begin, limbs);
-    return signed(result, limbs);
+    return result;
 }
 
 fn add_coordinate(sum: ptr<function, Limbs>, coordinate: u32, begin: u32, limbs: u32) {
@@ -91,45 +87,46 @@ fn add_coordinate(sum: ptr<function, Limbs>, coordinate: u32, begin: u32, limbs:
     }
 }
 
-// Magnitude and sign of a two's complement number of so many limbs.
-fn signed(number: Limbs, limbs: u32) -> Signed {
-    var result = number;
-    let mask = sign_mask(result[limbs - 1u]);
-    var carry = mask & 1u;
-    for (var i = 0u; i < limbs; i++) {
-        let limb_sum = add_carry(result[i] ^ mask, 0u, carry);
-        result[i] = limb_sum.x;
-        carry = limb_sum.y;
-    }
-    return Signed(result, mask != 0u);
-}
-
-fn negated(x: Signed) -> Signed {
-    return Signed(x.magnitude, !x.is_negative);
-}
-
-// sum += x * y, of sum_limbs limbs. A product is subtracted by adding it to the complement: ~(~s + t) = s - t.
-fn add_product(sum: ptr<function, Limbs>, x: Signed, x_limbs: u32, y: Signed, y_limbs: u32, sum_limbs: u32) {
-    var a = x.magnitude;
-    var b = y.magnitude;
-    let mask = select(0u, 0xffffffffu, x.is_negative != y.is_negative);
-    for (var i = 0u; i < sum_limbs; i++) {
-        (*sum)[i] ^= mask;
-    }
+// sum += x * y, in two's complement of x_limbs + y_limbs limbs.
+fn add_product(
+    sum: ptr<function, Limbs>,
+    x: ptr<function, Limbs>,
+    x_limbs: u32,
+    y: ptr<function, Limbs>,
+    y_limbs: u32,
+) {
+    // As if both were unsigned.
+    let limbs = x_limbs + y_limbs;
+    var product: Limbs;
     for (var i = 0u; i < x_limbs; i++) {
+        let x_limb = (*x)[i];
         var carry = 0u;
         for (var j = 0u; j < y_limbs; j++) {
-            let limb = multiply_add(a[i], b[j], (*sum)[i + j], carry);
-            (*sum)[i + j] = limb.x;
+            let limb = multiply_add(x_limb, (*y)[j], product[i + j], carry);
+            product[i + j] = limb.x;
             carry = limb.y;
         }
-        for (var j = i + y_limbs; j < sum_limbs; j++) {
-            let limb = add_carry((*sum)[j], carry, 0u);
-            (*sum)[j] = limb.x;
-            carry = limb.y;
-        }
+        product[i + y_limbs] = carry;
     }
-    for (var i = 0u; i < sum_limbs; i++) {
-        (*sum)[i] ^= mask;
+
+    // A negative x was read as x + 2^(32 x_limbs), so the product has a y too much up there; and the other way round.
+    subtract(&product, x_limbs, limbs, y, sign_mask((*x)[x_limbs - 1u]));
+    subtract(&product, y_limbs, limbs, x, sign_mask((*y)[y_limbs - 1u]));
+
+    var carry = 0u;
+    for (var i = 0u; i < limbs; i++) {
+        let limb = add_carry((*sum)[i], product[i], carry);
+        (*sum)[i] = limb.x;
+        carry = limb.y;
+    }
+}
+
+// Subtracts x from the limbs begin to end, under a set mask.
+fn subtract(number: ptr<function, Limbs>, begin: u32, end: u32, x: ptr<function, Limbs>, mask: u32) {
+    var carry = 1u;
+    for (var i = begin; i < end; i++) {
+        let limb = add_carry((*number)[i], ~((*x)[i - begin] & mask), carry);
+        (*number)[i] = limb.x;
+        carry = limb.y;
     }
 }
