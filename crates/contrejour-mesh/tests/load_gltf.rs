@@ -105,7 +105,7 @@ fn lists_strips_and_fans_with_and_without_indices() {
     };
     assert_eq!(indexed(4, &[0, 1, 2, 2, 1, 3]), (vec![[0, 1, 2], [2, 1, 3]], 0));
     assert_eq!(indexed(4, &[0, 1, 2, 2]), (vec![[0, 1, 2]], 1));
-    assert_eq!(indexed(5, &[0, 1, 2, 3]), (vec![[0, 1, 2], [1, 3, 2]], 0));
+    assert_eq!(indexed(5, &[0, 1, 2, 3, 0]), (vec![[0, 1, 2], [1, 3, 2], [2, 3, 0]], 0));
     assert_eq!(indexed(6, &[0, 1, 3, 2]), (vec![[0, 1, 3], [0, 3, 2]], 0));
     assert_eq!(indexed(1, &[0, 1, 3, 2]), (vec![], 1));
     let file = square().set("/meshes/0/primitives/0/mode", json!(5)).loaded();
