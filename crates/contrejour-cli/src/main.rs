@@ -20,7 +20,11 @@ use args::{Arguments, Command};
 use failure::one_line;
 
 fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return told_by_clap(&error),
+    };
+    let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Silhouette(arguments) => silhouette::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
@@ -32,5 +36,36 @@ fn main() -> ExitCode {
             eprintln!("contrejour: {}", one_line(error.as_ref()));
             ExitCode::from(2)
         }
+    }
+}
+
+/// Help and version go to standard output; what cannot be understood is one line on standard error.
+fn told_by_clap(error: &clap::Error) -> ExitCode {
+    let shows_help = error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+    if shows_help || !error.use_stderr() {
+        // Nothing can be done about a closed output.
+        let _ = error.print();
+        return if shows_help { ExitCode::from(2) } else { ExitCode::SUCCESS };
+    }
+    eprintln!("contrejour: {}", usage_line(&error.to_string()));
+    ExitCode::from(2)
+}
+
+/// The first paragraph of clap's text in one line, without its heading.
+fn usage_line(text: &str) -> String {
+    let paragraph = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
+    format!("{}; see --help", paragraph.trim_start_matches("error: "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_understood_is_one_line() {
+        let text = "error: unexpected argument '--magic' found\n\nUsage: contrejour render [OPTIONS]\n";
+        assert_eq!(usage_line(text), "unexpected argument '--magic' found; see --help");
+        let error = Arguments::try_parse_from(["contrejour", "silhouette", "a.obj"]).expect_err("it has no light");
+        assert!(!usage_line(&error.to_string()).contains('\n'));
     }
 }

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows, Untimed};
-use contrejour_layout::SilhouetteEdge;
-use contrejour_plan::{Light, Outputs};
+use contrejour_layout::{BLOCK_SIZE, Caster, SilhouetteEdge, WorkItem};
+use contrejour_mirror::{FrameInputs, run_frame};
+use contrejour_plan::{Light, Outputs, ShadowSettings, View, ViewCounts, caster_light, position_scale, views};
 use contrejour_render::{Gpu, read_silhouettes};
 
 use super::found::PlacedMesh;
@@ -30,6 +31,66 @@ pub fn on_gpu(placed: &[PlacedMesh<'_>], light: &Light) -> Result<Vec<Silhouette
     gpu.queue.submit([encoder.finish()]);
     warn_of_singular_casters(shadows.stats().singular_casters);
     Ok(read_silhouettes(&gpu, &shadows)?)
+}
+
+/// Runs the twins of the compute stages, mesh by mesh.
+pub fn on_cpu(placed: &[PlacedMesh<'_>], light: &Light) -> Result<Vec<SilhouetteEdge>, Failure> {
+    let views = views(light)?;
+    let view = views.first().ok_or("the light has no view")?;
+    let mut silhouettes = Vec::new();
+    let mut singular_casters = 0;
+    for (placed, caster) in placed.iter().zip(0..) {
+        match silhouettes_of(placed, view) {
+            Some(found) => silhouettes.extend(found.into_iter().map(|edge| SilhouetteEdge { caster, ..edge })),
+            None => singular_casters += 1,
+        }
+    }
+    warn_of_singular_casters(singular_casters);
+    Ok(silhouettes)
+}
+
+/// The silhouette of one mesh; `None` where its matrix is singular.
+fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<SilhouetteEdge>> {
+    let topology = &*placed.topology;
+    let scale = position_scale(topology.bounds_min, topology.bounds_max);
+    let caster_light = caster_light(view, &placed.world_from_object, scale);
+    if caster_light.casts == 0 {
+        return None;
+    }
+    let face_count = topology.faces.len() as u32;
+    let edge_count = topology.candidate_edge_count;
+    let blocks = |count: u32| (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { caster: 0, block });
+    let face_items: Vec<WorkItem> = blocks(face_count).collect();
+    let edge_items: Vec<WorkItem> = blocks(edge_count).collect();
+    let caster = Caster {
+        position_stride_words: 3,
+        face_count,
+        edge_count,
+        position_scale: scale,
+        ..Caster::default()
+    };
+    // Without room for quads and corners none are kept.
+    let counts = ViewCounts {
+        face_items: face_items.len() as u32,
+        edge_items: edge_items.len() as u32,
+        undecided: face_count,
+        silhouettes: edge_count,
+        quads: 0,
+        corners: 0,
+    };
+    let frame = run_frame(&FrameInputs {
+        view: &view.light_view(&ShadowSettings::default(), &counts),
+        face_items: &face_items,
+        edge_items: &edge_items,
+        casters: &[caster],
+        caster_lights: &[caster_light],
+        positions: bytemuck::cast_slice(&topology.positions),
+        faces: &topology.faces,
+        edges: &topology.edges,
+        incidences: &topology.incidences,
+        vertex_edges: &[],
+    });
+    Some(frame.silhouettes)
 }
 
 fn warn_of_singular_casters(count: u32) {

@@ -47,8 +47,9 @@ fn light(arguments: &LightArguments) -> Result<Light, Failure> {
     let kind = match (arguments.point, arguments.direction) {
         (Some(point), _) => {
             let position = double(point);
-            let target = if position == DVec3::ZERO { DVec3::X } else { DVec3::ZERO };
-            LightKind::Spot { position, target, cone_angle: 1.0, radius: 0.0, near: 1.0, far: 2.0 }
+            // Along x and wide: even the farthest point that `f32` holds then has a view whose matrix `f32` holds.
+            let target = DVec3 { x: if position.x == 0.0 { 1.0 } else { 0.0 }, ..position };
+            LightKind::Spot { position, target, cone_angle: 2.5, radius: 0.0, near: 1.0, far: 1e30 }
         }
         (None, Some(direction)) => LightKind::Directional {
             towards_light: double(direction),
