@@ -1,0 +1,71 @@
+//! Every shader module that the workspace creates, with naga's understanding of it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A module's name and whole text.
+pub struct Module {
+    pub name: String,
+    pub wgsl: String,
+}
+
+/// The checkout.
+pub fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A file of `shaders/`.
+pub fn shader_file(path: &str) -> String {
+    let path = workspace().join("shaders").join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Stems of the files in a folder of the checkout with an ending, sorted.
+pub fn stems(folder: &str, ending: &str) -> Vec<String> {
+    let path = workspace().join(folder);
+    let entries = fs::read_dir(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut stems: Vec<_> = entries
+        .filter_map(|entry| {
+            let name = entry.expect("the folder can be read").file_name().into_string().expect("names are plain");
+            Some(name.strip_suffix(ending)?.to_owned())
+        })
+        .collect();
+    stems.sort();
+    stems
+}
+
+/// The library's modules, and those of the renderer joined with each visibility function.
+pub fn all() -> Vec<Module> {
+    let library = contrejour_gpu::shaders::all();
+    let mut modules: Vec<_> =
+        library.map(|module| Module { name: module.name.into(), wgsl: module.wgsl.into() }).collect();
+    for variant in [
+        &["visibility_shadow_map"][..],
+        &["visibility_smoothies", "smoothie_split"],
+        &["visibility_smoothies", "smoothie_packed"],
+    ] {
+        let shared = ["receiver", "receiver_lookup"].iter().chain(variant);
+        let shared = shared.map(|name| shader_file(&format!("shared/{name}.wgsl")));
+        let files: Vec<_> = std::iter::once(shader_file("raster/shade.wgsl")).chain(shared).collect();
+        modules.push(Module { name: format!("shade+{}", variant.join("+")), wgsl: files.join("\n") });
+    }
+    modules.push(Module { name: "silhouette_lines".into(), wgsl: shader_file("raster/silhouette_lines.wgsl") });
+    modules
+}
+
+/// Parses WGSL; the message of a fault shows its line.
+pub fn parse(module: &Module) -> naga::Module {
+    naga::front::wgsl::parse_str(&module.wgsl)
+        .unwrap_or_else(|error| panic!("{}: {}", module.name, error.emit_to_string(&module.wgsl)))
+}
+
+#[test]
+fn every_shader_file_is_part_of_a_module() {
+    let modules = all();
+    for folder in ["compute", "raster", "shared"] {
+        for stem in stems(&format!("shaders/{folder}"), ".wgsl") {
+            let text = shader_file(&format!("{folder}/{stem}.wgsl"));
+            assert!(modules.iter().any(|module| module.wgsl.contains(&text)), "{folder}/{stem}.wgsl is used nowhere");
+        }
+    }
+}
