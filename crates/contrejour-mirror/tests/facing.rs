@@ -136,6 +136,11 @@ fn common() -> BoxedStrategy<f32> {
     (-1.0_f32..1.0).boxed()
 }
 
+/// Products of two or three of them underflow.
+fn underflowing() -> BoxedStrategy<f32> {
+    (-1.0_f32..1.0, -66..-38_i32).prop_map(|(value, exponent)| value * (exponent as f32).exp2()).boxed()
+}
+
 fn small_integer() -> BoxedStrategy<f32> {
     (-4..5_i8).prop_map(f32::from).boxed()
 }
@@ -194,6 +199,9 @@ proptest! {
 
     #[test]
     fn near_the_plane_of_subnormals(case in case_near_plane(subnormal())) { check(&case)?; }
+
+    #[test]
+    fn near_the_plane_of_underflowing_numbers(case in case_near_plane(underflowing())) { check(&case)?; }
 
     #[test]
     fn near_the_plane_of_anything(case in case_near_plane(mixed())) { check(&case)?; }
