@@ -29,8 +29,6 @@ struct Surface {
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(1) @binding(0) var<uniform> surface: Surface;
 
-const CONTREJOUR_GROUP = 2u;
-
 // The cone's edge is soft over this part of one minus the cosine of half the cone.
 const CONE_EDGE = 0.1;
 // Ambient light from above and from below, relative to the mean.
@@ -38,6 +36,10 @@ const SKY = 1.2;
 const GROUND = 0.8;
 // Up to here tones stay as they are, so that shadows are shown untouched; beyond, they approach 1.
 const SHOULDER = 0.7;
+
+// Cosine at which light fades out. Interpolated normals are still lit where the flat faces below them no longer are;
+// without this margin those faces would show as teeth along the border between light and dark.
+const TERMINATOR = 0.12;
 
 struct ShadeVertex {
     @builtin(position) clip: vec4f,
@@ -105,7 +107,7 @@ fn facing(normal: vec3f, direction: vec3f) -> vec3f {
     return select(-normal, normal, dot(normal, direction) >= 0.0);
 }
 
-// Unshadowed light on a white surface: Lambert's cosine, the cone, and the square of the distance.
+// Unshadowed light on a white surface: Lambert's cosine, the cone, and the inverse square of the distance.
 fn light_at(position_local: vec3f, normal: vec3f) -> vec3f {
     let to_light = frame.light_local.xyz - frame.light_local.w * position_local;
     let distance_squared = max(dot(to_light, to_light), 1e-12);
@@ -114,7 +116,8 @@ fn light_at(position_local: vec3f, normal: vec3f) -> vec3f {
     let inner_cosine = cone_cosine + CONE_EDGE * (1.0 - cone_cosine);
     let cone = smoothstep(cone_cosine, inner_cosine, dot(-towards_light, frame.light_axis_local.xyz));
     let falloff = select(1.0, frame.light_color.w / distance_squared, frame.light_local.w == 1.0);
-    return frame.light_color.rgb * max(dot(normal, towards_light), 0.0) * cone * falloff;
+    let cosine = max(dot(normal, towards_light) - TERMINATOR, 0.0) / (1.0 - TERMINATOR);
+    return frame.light_color.rgb * cosine * cone * falloff;
 }
 
 fn tone_mapped(color: vec3f) -> vec3f {

@@ -57,7 +57,12 @@ impl Gpu {
     ///
     /// [`OpenGpuError`] when there is no driver or the device lacks a default of WebGPU.
     pub fn open() -> Result<Self, OpenGpuError> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        // OpenGL has less than WebGPU's defaults; to look for it costs time and lines on standard error.
+        let descriptor = wgpu::InstanceDescriptor {
+            backends: wgpu::Backends::PRIMARY,
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        };
+        let instance = wgpu::Instance::new(descriptor.with_env());
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()

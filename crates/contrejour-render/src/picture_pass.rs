@@ -1,6 +1,6 @@
 //! The pass that draws the scene from the eye.
 
-use contrejour_gpu::Shadows;
+use contrejour_gpu::{Shadows, VisibilityKind};
 
 use crate::frame_uniforms::FrameUniforms;
 use crate::scene_meshes::{SceneMeshes, VERTEX_LAYOUT, surface_layout};
@@ -29,9 +29,10 @@ impl Shading {
     }
 }
 
-/// Bind groups and shader of the pass.
+/// Bind groups and shader of the pass, for one kind of visibility.
 #[derive(Debug)]
 pub(crate) struct PicturePass {
+    kind: VisibilityKind,
     module: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
     surface_layout: wgpu::BindGroupLayout,
@@ -40,6 +41,7 @@ pub(crate) struct PicturePass {
 }
 
 impl PicturePass {
+    /// The pass for shadows that were prepared.
     pub fn new(gpu: &Gpu, shadows: &Shadows) -> Self {
         let device = &gpu.device;
         let wgsl = format!("{SHADE}\n{}", shadows.visibility_wgsl(VISIBILITY_GROUP));
@@ -77,7 +79,12 @@ impl PicturePass {
             bind_group_layouts: &[Some(&frame_layout), Some(&surface_layout), Some(shadows.visibility_layout())],
             immediate_size: 0,
         });
-        Self { module, layout, surface_layout, uniforms, frame_bind_group }
+        Self { kind: shadows.visibility_kind(), module, layout, surface_layout, uniforms, frame_bind_group }
+    }
+
+    /// Whether the pass looks up the maps that these shadows have.
+    pub fn fits(&self, shadows: &Shadows) -> bool {
+        self.kind == shadows.visibility_kind()
     }
 
     pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {

@@ -99,6 +99,9 @@ pub enum NewRendererError {
     /// A mesh that casts does not fit.
     #[error(transparent)]
     AddMesh(#[from] AddMeshError),
+    /// The scene's light or the device does not allow its shadow.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
     /// The timestamps cannot be set up.
     #[error("the graphics device's timestamps cannot be used")]
     Timer(#[from] wgpu_profiler::CreationError),
@@ -148,6 +151,8 @@ impl Renderer {
         let local = LocalSpace::around(&scene.camera);
         let mut shadows = Shadows::new(&gpu.device, options)?;
         let casters = add_casters(&mut shadows, scene, &local)?;
+        let light_local = local.light(&scene.light);
+        prepare(&gpu, &mut shadows, &casters, &light_local)?;
         let pass = PicturePass::new(&gpu, &shadows);
         let meshes = SceneMeshes::new(&gpu, scene, &local, pass.surface_layout())?;
         let lit_pipeline = pass.pipeline(&gpu, Shading::Lit);
@@ -162,7 +167,7 @@ impl Renderer {
             submissions: VecDeque::new(),
             frames: Vec::new(),
             waits_asked_for: 0,
-            light_local: local.light(&scene.light),
+            light_local,
             gpu,
             local,
             shadows,
@@ -184,7 +189,12 @@ impl Renderer {
         let clock = ThreadTime::now();
         self.light_local = self.local.light(light);
         self.uniforms = self.uniforms.with_light(&self.light_local);
-        self.prepare()?;
+        prepare(&self.gpu, &mut self.shadows, &self.casters, &self.light_local)?;
+        if !self.pass.fits(&self.shadows) {
+            // The light gained or lost its size.
+            self.pass = PicturePass::new(&self.gpu, &self.shadows);
+            self.lit_pipeline = self.pass.pipeline(&self.gpu, Shading::Lit);
+        }
         let uniform_bytes = self.pass.upload(&self.gpu, &self.uniforms);
         let mut encoder = self.encoder();
         self.shadows.encode(&mut encoder, &mut self.timer);
@@ -257,19 +267,6 @@ impl Renderer {
         self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
     }
 
-    fn prepare(&mut self) -> Result<(), PrepareError> {
-        let casters: Vec<CasterInput<'_>> = (self.casters.iter())
-            .map(|caster| CasterInput {
-                mesh: caster.handle,
-                world_from_object: caster.local_from_object,
-                positions: Positions::OfMesh,
-            })
-            .collect();
-        // The library's world is our local space.
-        let input = FrameInput { light: &self.light_local, casters: &casters };
-        self.shadows.prepare(&self.gpu.device, &self.gpu.queue, &input)
-    }
-
     fn limit_frames_in_flight(&mut self, submission: wgpu::SubmissionIndex) -> Result<(), wgpu::PollError> {
         self.submissions.push_back(submission);
         self.gpu.device.poll(wgpu::PollType::Poll)?;
@@ -279,6 +276,18 @@ impl Renderer {
         }
         Ok(())
     }
+}
+
+/// Prepares a frame of the library, whose world is our local space.
+fn prepare(gpu: &Gpu, shadows: &mut Shadows, casters: &[Caster], light_local: &Light) -> Result<(), PrepareError> {
+    let casters: Vec<CasterInput<'_>> = (casters.iter())
+        .map(|caster| CasterInput {
+            mesh: caster.handle,
+            world_from_object: caster.local_from_object,
+            positions: Positions::OfMesh,
+        })
+        .collect();
+    shadows.prepare(&gpu.device, &gpu.queue, &FrameInput { light: light_local, casters: &casters })
 }
 
 /// Builds the topology of each mesh that casts once, however often it stands in the scene.
