@@ -11,5 +11,7 @@ pub mod meshes;
 pub mod mirror_run;
 pub mod oracle;
 pub mod outline_gap;
+pub mod pipeline;
 pub mod random;
 pub mod stage_run;
+pub mod texture;

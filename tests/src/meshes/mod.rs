@@ -10,7 +10,7 @@ use contrejour_scene::shapes::Shape;
 use glam::{DMat4, DVec3};
 
 pub use shared::{shared, shared_named};
-pub use tiny::tiny;
+pub use tiny::{fan, tiny};
 
 /// What one file or generator brings.
 #[derive(Clone, Debug)]
@@ -26,6 +26,8 @@ pub struct TestMesh {
 pub struct TestPart {
     /// The triangles with their topology.
     pub topology: Arc<TopologyAwareMesh>,
+    /// The source triangles, for who builds a topology of their own.
+    pub triangles: Arc<[[u32; 3]]>,
     /// World space from the mesh's object space.
     pub world_from_object: DMat4,
 }
@@ -39,23 +41,28 @@ impl TestMesh {
     pub fn generated(name: &str, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
         let topology = TopologyAwareMesh::build(positions, triangles, &BuildOptions::default())
             .unwrap_or_else(|error| panic!("{name}: {error}"));
-        let part = TestPart { topology: Arc::new(topology), world_from_object: DMat4::IDENTITY };
+        let part =
+            TestPart { topology: Arc::new(topology), triangles: triangles.into(), world_from_object: DMat4::IDENTITY };
         Self { name: name.into(), parts: vec![part] }
     }
 
     fn of_file(name: &str, file: &MeshFile) -> Result<Self, String> {
         let build = |mesh: &TriangleMesh| {
             TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())
-                .map(Arc::new)
+                .map(|topology| (Arc::new(topology), Arc::from(mesh.triangles.as_slice())))
                 .map_err(|error| format!("{name}: {error}"))
         };
-        let topologies = file.meshes.iter().map(build).collect::<Result<Vec<_>, _>>()?;
+        let built = file.meshes.iter().map(build).collect::<Result<Vec<_>, _>>()?;
         let parts = file
             .nodes
             .iter()
-            .map(|node| TestPart {
-                topology: Arc::clone(&topologies[node.mesh]),
-                world_from_object: node.world_from_object,
+            .map(|node| {
+                let (topology, triangles): &(_, Arc<[[u32; 3]]>) = &built[node.mesh];
+                TestPart {
+                    topology: Arc::clone(topology),
+                    triangles: Arc::clone(triangles),
+                    world_from_object: node.world_from_object,
+                }
             })
             .collect();
         Ok(Self { name: name.into(), parts })

@@ -97,7 +97,7 @@ fn crowd(meshes: &[TestMesh]) -> TestMesh {
         };
         let turn = DQuat::from_rotation_arc(DVec3::Y, vector().normalize());
         let world_from_object = DMat4::from_scale_rotation_translation(scale, turn, 4.0 * vector());
-        TestPart { topology: part.topology.clone(), world_from_object }
+        TestPart { world_from_object, ..part.clone() }
     });
     TestMesh { name: "crowd".into(), parts: parts.collect() }
 }

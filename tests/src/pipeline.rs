@@ -1,0 +1,100 @@
+//! The whole library on a test mesh, and what a frame leaves on the device.
+
+use std::sync::Arc;
+
+use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_layout::{Corner, Counters, Quad, SilhouetteEdge};
+use contrejour_plan::{BufferKind, Light};
+use glam::DMat4;
+
+use crate::gpu::Gpu;
+use crate::meshes::TestMesh;
+
+/// Frames after which a frame must have had room for everything: one that counts, one that has grown.
+const MAX_FRAMES: u32 = 3;
+
+/// A shadow object with the parts of one mesh as casters.
+#[derive(Debug)]
+pub struct Pipeline<'a> {
+    /// The library's object.
+    pub shadows: Shadows,
+    gpu: &'a Gpu,
+    casters: Vec<(MeshHandle, DMat4)>,
+}
+
+impl<'a> Pipeline<'a> {
+    /// Makes the object and adds the meshes.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses.
+    pub fn new(gpu: &'a Gpu, mesh: &TestMesh, options: &ShadowOptions) -> Result<Self, String> {
+        let mut shadows = Shadows::new(&gpu.device, options).map_err(|error| error.to_string())?;
+        let mut casters = Vec::new();
+        for part in &mesh.parts {
+            let handle = shadows.add_mesh(Arc::clone(&part.topology)).map_err(|error| error.to_string())?;
+            casters.push((handle, part.world_from_object));
+        }
+        Ok(Self { shadows, gpu, casters })
+    }
+
+    /// Prepares and submits one frame and waits for what it counted; zeros where the plan counts nothing.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses.
+    pub fn frame(&mut self, light: &Light) -> Result<Counters, String> {
+        let casters: Vec<_> = self
+            .casters
+            .iter()
+            .map(|&(mesh, world_from_object)| CasterInput { mesh, world_from_object, positions: Positions::OfMesh })
+            .collect();
+        let input = FrameInput { light, casters: &casters };
+        let Gpu { device, queue, .. } = self.gpu;
+        self.shadows.prepare(device, queue, &input).map_err(|error| error.to_string())?;
+        let mut encoder = device.create_command_encoder(&Default::default());
+        self.shadows.encode(&mut encoder, &mut Untimed);
+        queue.submit([encoder.finish()]);
+        if self.shadows.buffer(BufferKind::Counters).is_none() {
+            return Ok(Counters::default());
+        }
+        self.shadows.wait_for_counters(device).map_err(|error| error.to_string())
+    }
+
+    /// Repeats the frame until it had room for everything.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, or that it needs more frames than one that counts and one that has grown.
+    pub fn complete_frame(&mut self, light: &Light) -> Result<Counters, String> {
+        for _ in 0..MAX_FRAMES {
+            let counters = self.frame(light)?;
+            if self.shadows.is_complete() {
+                return Ok(counters);
+            }
+        }
+        Err(format!("not complete after {MAX_FRAMES} frames"))
+    }
+
+    /// The silhouette list of the last frame.
+    pub fn silhouettes(&self, counters: &Counters) -> Vec<SilhouetteEdge> {
+        self.records(BufferKind::Silhouettes, counters.silhouette_edges)
+    }
+
+    /// The quads of the last frame.
+    pub fn quads(&self, counters: &Counters) -> Vec<Quad> {
+        self.records(BufferKind::Quads, counters.quads)
+    }
+
+    /// The corners of the last frame.
+    pub fn corners(&self, counters: &Counters) -> Vec<Corner> {
+        self.records(BufferKind::Corners, counters.corners)
+    }
+
+    fn records<T: bytemuck::Pod>(&self, kind: BufferKind, count: u32) -> Vec<T> {
+        match self.shadows.buffer(kind) {
+            Some(buffer) => self.gpu.read_back(buffer, count as usize),
+            None => Vec::new(),
+        }
+    }
+}
