@@ -34,27 +34,38 @@ fn vertex_quad(@builtin(vertex_index) index: u32) -> SmoothieVertex {
     let is_outer = corner == 2u || corner >= 4u;
     let width = select(quad.width_ndc.x, quad.width_ndc.y, is_high);
     let q = select(quad.q.x, quad.q.y, is_high);
-    let across = select(-INNER_RIM_TEXELS * 2.0 / f32(view.map_size), width, is_outer);
+    let across = select(-rim_overlap(), width, is_outer);
     let ndc = select(quad.low_ndc, quad.high_ndc, is_high) + across * quad.outward;
     return SmoothieVertex(clip_at(ndc, q), across, vec2f(0.0), width, q);
 }
 
+// A corner reaches as far over its quads and under the blocker: its own rim and theirs fall between texels in ways of
+// their own. Minimum blending settles what is covered twice.
 @vertex
 fn vertex_corner(@builtin(vertex_index) index: u32) -> SmoothieVertex {
     let corner = corners[index / VERTICES_PER_CORNER];
     // Two kites, from begin to middle and from middle to end; each of two triangles that meet at its tip.
     let triangle = index % VERTICES_PER_CORNER / 3u;
-    let first = select(corner.middle, corner.begin, triangle < 2u);
-    let last = select(corner.end, corner.middle, triangle < 2u);
+    let overlap = rim_overlap();
+    let width = corner.width_ndc;
+    let first = width * corner.begin + overlap * vec2f(corner.begin.y, -corner.begin.x);
+    let last = width * corner.end + overlap * vec2f(-corner.end.y, corner.end.x);
+    let begins = select(width * corner.middle, first, triangle < 2u);
+    let ends = select(last, width * corner.middle, triangle < 2u);
+    let tip = width * kite_tip(select(corner.middle, corner.begin, triangle < 2u), select(corner.end, corner.middle, triangle < 2u));
     let point = index % 3u;
-    var direction = kite_tip(first, last);
+    var around = tip;
     if point == 0u {
-        direction = vec2f(0.0);
+        around = -overlap * corner.middle;
     } else if (point == 1u) == (triangle % 2u == 0u) {
-        direction = select(last, first, triangle % 2u == 0u);
+        around = select(ends, begins, triangle % 2u == 0u);
     }
-    let around = corner.width_ndc * direction;
-    return SmoothieVertex(clip_at(corner.apex_ndc + around, corner.q), 0.0, around, corner.width_ndc, corner.q);
+    return SmoothieVertex(clip_at(corner.apex_ndc + around, corner.q), 0.0, around, width, corner.q);
+}
+
+// In NDC, whose side is 2.
+fn rim_overlap() -> f32 {
+    return INNER_RIM_TEXELS * 2.0 / f32(view.map_size);
 }
 
 // Where the tangents of the unit circle at two unit vectors meet. A kite spans at most a quarter turn, so the tip is at

@@ -138,7 +138,8 @@ pub struct SceneMesh {
     pub world_from_object: DMat4,
     /// How it looks.
     pub material: Material,
-    /// Whether it throws a shadow. Default: true.
+    /// Whether it throws a shadow. Default: true. What throws none is in no map, so a shadow that falls on it is as
+    /// soft at the contact as far away.
     pub casts: bool,
     /// Whether it takes shadows. Default: true.
     pub receives: bool,

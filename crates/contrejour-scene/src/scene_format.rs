@@ -19,7 +19,6 @@
 //!
 //! [[mesh]]
 //! shape = { kind = "plane", size = [8, 8] }
-//! casts = false
 //!
 //! [[mesh]]
 //! shape = { kind = "torus", radius = 0.8 }
@@ -102,7 +101,7 @@
 //! | `rotate_degrees` | turns about x, then y, then z, after scaling | `[0, 0, 0]` |
 //! | `translate` | moves after turning | `[0, 0, 0]` |
 //! | `base_color` | colour of the surface, 0 to 1 | the mesh's own |
-//! | `casts` | whether it throws a shadow | `true` |
+//! | `casts` | whether it throws a shadow; without, shadows on it do not harden at the contact | `true` |
 //! | `receives` | whether it takes shadows | `true` |
 //!
 //! # `shape`

@@ -125,7 +125,7 @@ fn circle(middle: DVec3, radius: f64) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// A round slab that receives and does not cast; `middle` is the middle of its upper side.
+/// A round slab; `middle` is the middle of its upper side. It casts too: soft edges harden towards what is in the map.
 fn floor_mesh(middle: DVec3, floor_radius: f64) -> SceneMesh {
     // A unit cylinder and a matrix: good at any size and place.
     let shape = Shape::Cylinder { radius: 1.0, height: 1.0, segments: 96 };
@@ -138,7 +138,7 @@ fn floor_mesh(middle: DVec3, floor_radius: f64) -> SceneMesh {
         mesh: Arc::new(mesh),
         world_from_object: DMat4::from_translation(center) * DMat4::from_scale(scale),
         material: Material { base_color: Some(FLOOR_COLOR) },
-        casts: false,
+        casts: true,
         receives: true,
     }
 }
