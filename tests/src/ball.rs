@@ -110,11 +110,11 @@ impl Div for Ball {
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         let room = other.value.abs() - other.error;
-        if !(room > 0.0) {
-            return Self { value, error: f64::INFINITY };
+        if room > 0.0 {
+            // WGSL's division may be off by two and a half units.
+            return Self::rounded(value, (self.error + value.abs() * other.error) / room, 3.0 * value.abs());
         }
-        // WGSL's division may be off by two and a half units.
-        Self::rounded(value, (self.error + value.abs() * other.error) / room, 3.0 * value.abs())
+        Self { value, error: f64::INFINITY }
     }
 }
 

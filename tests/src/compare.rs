@@ -152,8 +152,9 @@ pub fn compare_record<T: Record>(what: &str, expected: &T, actual: &T, tolerance
     }
     for ((field, expected_float), (_, actual_float)) in expected.floats().into_iter().zip(actual.floats()) {
         let allowed = tolerance * expected_float.abs().max(1.0);
-        // Written so that NaN differs.
-        if !((expected_float - actual_float).abs() <= allowed) {
+        // NaN is not within.
+        let is_within = (expected_float - actual_float).abs() <= allowed;
+        if !is_within {
             return Err(format!(
                 "{what} {:?}, {field}: expected {expected_float} within {allowed}, found {actual_float}",
                 expected.key()

@@ -1,7 +1,7 @@
 //! One device for all tests of a binary.
 
 use std::fmt::Display;
-use std::sync::OnceLock;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use wgpu::util::DeviceExt;
 
@@ -17,6 +17,7 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Name of the adapter and of its backend.
     pub adapter: String,
+    waiting: Mutex<()>,
 }
 
 /// The device with WebGPU's default limits and no optional feature.
@@ -55,10 +56,17 @@ fn open(features: wgpu::Features) -> Result<Gpu, String> {
     };
     let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
         .map_err(|error| format!("no device on {}: {}", info.name, text(error)))?;
-    Ok(Gpu { device, queue, adapter: format!("{} ({})", info.name, info.backend) })
+    Ok(Gpu { device, queue, adapter: format!("{} ({})", info.name, info.backend), waiting: Mutex::new(()) })
 }
 
 impl Gpu {
+    /// Held by the one test that waits for the device. A wait of one thread may take over another's callback and return
+    /// that other's wait before the callback has run.
+    pub fn waiting(&self) -> MutexGuard<'_, ()> {
+        // A test that failed while it waited leaves nothing behind.
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// A buffer that holds the bytes and, after them, zeros up to 64 bytes: a buffer must hold at least one record.
     pub fn upload(&self, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         let mut contents = bytes.to_vec();
@@ -100,6 +108,7 @@ impl Gpu {
     ///
     /// When the device is lost.
     pub fn map(&self, readable: &wgpu::Buffer) -> Vec<u8> {
+        let _waiting = self.waiting();
         readable.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("a fresh buffer can be mapped"));
         self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
         readable.get_mapped_range(..).expect("the buffer is mapped").to_vec()

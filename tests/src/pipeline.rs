@@ -10,8 +10,9 @@ use glam::DMat4;
 use crate::gpu::Gpu;
 use crate::meshes::TestMesh;
 
-/// Frames after which a frame must have had room for everything: one that counts, one that has grown.
-const MAX_FRAMES: u32 = 3;
+/// Frames after which a frame must have had room for everything: one that counts quads, one that has room for them and
+/// counts their corners, one that has room for those too.
+pub const MAX_FRAMES: u32 = 3;
 
 /// A shadow object with the parts of one mesh as casters.
 #[derive(Debug)]
@@ -50,6 +51,7 @@ impl<'a> Pipeline<'a> {
             .map(|&(mesh, world_from_object)| CasterInput { mesh, world_from_object, positions: Positions::OfMesh })
             .collect();
         let input = FrameInput { light, casters: &casters };
+        let _waiting = self.gpu.waiting();
         let Gpu { device, queue, .. } = self.gpu;
         self.shadows.prepare(device, queue, &input).map_err(|error| error.to_string())?;
         let mut encoder = device.create_command_encoder(&Default::default());
@@ -65,7 +67,7 @@ impl<'a> Pipeline<'a> {
     ///
     /// # Errors
     ///
-    /// What the library refuses, or that it needs more frames than one that counts and one that has grown.
+    /// What the library refuses, or that it needs more frames than it may.
     pub fn complete_frame(&mut self, light: &Light) -> Result<Counters, String> {
         for _ in 0..MAX_FRAMES {
             let counters = self.frame(light)?;

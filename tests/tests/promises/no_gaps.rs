@@ -1,8 +1,11 @@
 //! Around no outline vertex is there an angle that neither a blocker nor a smoothie covers.
 
+use std::ops::Range;
+
 use contrejour_gpu::ShadowOptions;
-use contrejour_plan::{ShadowSettings, caster_light, position_scale, views};
-use contrejour_plan::{SmoothieSettings, SmoothieWidth, Technique, View};
+use contrejour_plan::{
+    ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, View, caster_light, position_scale, views,
+};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::lights;
@@ -14,6 +17,9 @@ use libtest_mimic::Trial;
 
 /// Files whose outlines have many turns and branches.
 const FILES: [&str; 3] = ["closed/bunny-index.obj", "nasty/hollowcube.obj", "animated/RiggedFigure.glb"];
+
+/// Lights in or on the mesh: there the near plane cuts blockers, and a cut has no outline.
+const INSIDE: Range<usize> = 12..20;
 
 pub fn trials() -> Vec<Trial> {
     vec![gpu_trial("no_gaps::around_any_outline_vertex", no_outline_vertex_has_a_gap)]
@@ -27,7 +33,7 @@ fn no_outline_vertex_has_a_gap(gpu: &Gpu) -> Outcome {
     meshes.extend(shared_named(&FILES));
     for mesh in &meshes {
         let mut pipeline = Pipeline::new(gpu, mesh, &options)?;
-        for (index, light) in lights(mesh).iter().enumerate().step_by(4) {
+        for (index, light) in lights(mesh).iter().enumerate().filter(|(index, _)| !INSIDE.contains(index)).step_by(3) {
             let counters = pipeline.complete_frame(light)?;
             let view = views(light).map_err(|error| error.to_string())?[0];
             let (quads, corners) = (pipeline.quads(&counters), pipeline.corners(&counters));
