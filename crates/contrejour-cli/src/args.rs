@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
+use crate::shadow_args::ShadowArguments;
+use crate::values::{parse_size, parse_vector};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use contrejour_plan::{PRESETS, ShadowSettings, SmoothieWidth, Technique};
-
-use crate::values::{parse_size, parse_vector, parse_width};
 
 /// Soft shadows whose silhouettes the GPU finds, for any triangle mesh.
 #[derive(Debug, Parser)]
@@ -72,36 +71,6 @@ pub struct PlanArguments {
     pub shadow: ShadowArguments,
 }
 
-/// What changes the scene's shadow settings.
-#[derive(Debug, Default, Args)]
-#[command(next_help_heading = "Shadow")]
-pub struct ShadowArguments {
-    /// Settings to start from [default: the scene's]
-    #[arg(long, value_name = "NAME", value_parser = PRESETS.map(|preset| preset.name))]
-    pub preset: Option<String>,
-
-    /// How the shadow is made
-    #[arg(long, value_name = "NAME", value_parser = Technique::NAMES)]
-    pub technique: Option<String>,
-
-    /// Texels along a side of the light's maps
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub map_size: Option<u32>,
-
-    /// Width of the soft edge: a part of the light's image plane, whose side is 2 (the paper shows 0.02 and 0.08), or
-    /// `light` to take it from the light's size
-    #[arg(long, value_name = "T|light", value_parser = parse_width, allow_hyphen_values = true)]
-    pub width: Option<SmoothieWidth>,
-
-    /// Leave alpha as it is, to see the contact problem that its remap cures
-    #[arg(long)]
-    pub unremapped_alpha: bool,
-
-    /// Fill the smoothie buffer in two passes also where the device could do it in one
-    #[arg(long)]
-    pub two_passes: bool,
-}
-
 #[derive(Debug, Args)]
 pub struct SilhouetteArguments {
     /// A mesh (.obj, .gltf, .glb, .ply, .stl)
@@ -163,63 +132,13 @@ pub struct InspectArguments {
     pub json: bool,
 }
 
-impl ShadowArguments {
-    /// The scene's settings with what was asked for.
-    pub fn applied_to(&self, scene: ShadowSettings) -> Result<ShadowSettings, ShadowArgumentError> {
-        let mut settings = match &self.preset {
-            Some(name) => ShadowSettings::preset(name)?,
-            None => scene,
-        };
-        if let Some(name) = self.technique.as_ref().filter(|name| *name != settings.technique.name()) {
-            settings.technique = name.parse()?;
-        }
-        settings.map_size = self.map_size.unwrap_or(settings.map_size);
-        match &mut settings.technique {
-            Technique::Smoothies(smoothies) => {
-                smoothies.width = self.width.unwrap_or(smoothies.width);
-                if self.unremapped_alpha {
-                    smoothies.remap = contrejour_plan::AlphaRemap::Off;
-                }
-                if self.two_passes {
-                    smoothies.blend = contrejour_plan::SmoothieBlend::TwoPasses;
-                }
-            }
-            technique if self.width.is_some() || self.unremapped_alpha || self.two_passes => {
-                return Err(ShadowArgumentError::NotSmoothies { technique: technique.name() });
-            }
-            _ => {}
-        }
-        settings.validate()?;
-        Ok(settings)
-    }
-}
-
-/// What is wrong with the shadow that was asked for.
-#[derive(Debug, thiserror::Error)]
-pub enum ShadowArgumentError {
-    #[error(transparent)]
-    Settings(#[from] contrejour_plan::SettingsError),
-    #[error(transparent)]
-    Technique(#[from] contrejour_plan::UnknownTechnique),
-    #[error(
-        "--width, --unremapped-alpha and --two-passes are for smoothies, and the technique is {technique}; leave them out or add --technique smoothies"
-    )]
-    NotSmoothies { technique: &'static str },
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use clap::CommandFactory;
-    use contrejour_plan::{AlphaRemap, SmoothieSettings};
 
     fn parse(line: &str) -> Result<Command, clap::Error> {
         Arguments::try_parse_from(line.split_whitespace()).map(|arguments| arguments.command)
-    }
-
-    fn shadow(line: &str) -> Result<ShadowSettings, ShadowArgumentError> {
-        let Ok(Command::Render(render)) = parse(line) else { panic!("{line} is a render command") };
-        render.shadow.applied_to(ShadowSettings::default())
     }
 
     #[test]
@@ -229,7 +148,8 @@ mod tests {
 
     #[test]
     fn negative_coordinates_are_values() {
-        for line in ["contrejour silhouette a.obj --point -1,-2.5,-3e2", "contrejour silhouette a.obj --point=-1,-2.5,-3e2"]
+        for line in
+            ["contrejour silhouette a.obj --point -1,-2.5,-3e2", "contrejour silhouette a.obj --point=-1,-2.5,-3e2"]
         {
             let Ok(Command::Silhouette(silhouette)) = parse(line) else { panic!("{line} is a silhouette command") };
             assert_eq!(silhouette.light.point, Some([-1.0, -2.5, -300.0]));
@@ -256,34 +176,5 @@ mod tests {
         ] {
             assert!(parse(line).is_err(), "{line}");
         }
-    }
-
-    #[test]
-    fn settings_start_from_the_preset() {
-        let settings = shadow("contrejour render --preset low --width 0.02 --unremapped-alpha").expect("all is fine");
-        let low = ShadowSettings::preset("low").expect("there is one");
-        assert_eq!(settings.map_size, low.map_size);
-        let Technique::Smoothies(smoothies) = settings.technique else { panic!("presets are smoothies") };
-        assert_eq!(smoothies.width, SmoothieWidth::Ndc(0.02));
-        assert_eq!(smoothies.remap, AlphaRemap::Off);
-    }
-
-    #[test]
-    fn naming_the_technique_that_there_is_keeps_its_settings() {
-        let scene = ShadowSettings {
-            technique: Technique::Smoothies(SmoothieSettings { width: SmoothieWidth::Ndc(0.3), ..Default::default() }),
-            ..Default::default()
-        };
-        let arguments = ShadowArguments { technique: Some("smoothies".into()), ..Default::default() };
-        assert_eq!(arguments.applied_to(scene).expect("all is fine"), scene);
-    }
-
-    #[test]
-    fn smoothie_settings_need_smoothies() {
-        assert!(matches!(
-            shadow("contrejour render --technique shadow-map --width 0.1"),
-            Err(ShadowArgumentError::NotSmoothies { .. })
-        ));
-        assert!(matches!(shadow("contrejour render --width 5"), Err(ShadowArgumentError::Settings(_))));
     }
 }

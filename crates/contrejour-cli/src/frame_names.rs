@@ -13,7 +13,9 @@ pub struct FrameNames {
 
 /// A name that gives every frame the same file, or cannot be read.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{name:?} does not say where the frame's number goes; put one place for it into the name, as in frame-%03d.png")]
+#[error(
+    "{name:?} does not say where the frame's number goes; put one place for it into the name, as in frame-%03d.png"
+)]
 pub struct FrameNameError {
     name: String,
 }
@@ -75,7 +77,9 @@ mod tests {
 
     #[test]
     fn anything_but_one_place_is_refused() {
-        for pattern in ["frame.png", "%d-%d.png", "%s.png", "%03.png", "%3d.png", "%0d.png", "%0999d.png", "%", "%%.png"] {
+        for pattern in
+            ["frame.png", "%d-%d.png", "%s.png", "%03.png", "%3d.png", "%0d.png", "%0999d.png", "%", "%%.png"]
+        {
             assert_eq!(name_of(pattern, 0), None, "{pattern}");
         }
     }

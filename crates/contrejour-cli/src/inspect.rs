@@ -31,11 +31,7 @@ pub fn run(arguments: &InspectArguments) -> Result<(), Failure> {
 
 fn report(mesh: &TriangleMesh) -> Result<MeshReport, Failure> {
     let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())?;
-    Ok(MeshReport {
-        name: mesh.name.clone(),
-        unlisted_vertices: mesh.unlisted_vertices,
-        report: topology.report,
-    })
+    Ok(MeshReport { name: mesh.name.clone(), unlisted_vertices: mesh.unlisted_vertices, report: topology.report })
 }
 
 fn text(file: &FileReport) -> String {

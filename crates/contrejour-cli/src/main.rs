@@ -9,6 +9,7 @@ mod plan;
 mod render;
 mod render_json;
 mod scenes;
+mod shadow_args;
 mod silhouette;
 mod values;
 

@@ -1,9 +1,10 @@
 //! `contrejour plan`: what a frame of a scene does, and what it leaves out and why.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
-use contrejour_mesh::{BuildOptions, EdgeClass, TopologyAwareMesh};
+use contrejour_mesh::{BuildOptions, EdgeClass, TopologyAwareMesh, TriangleMesh};
 use contrejour_plan::{
     Capacity, CasterFacts, DeviceFacts, FramePlan, MeshFacts, ObjectBox, Outputs, PlanInput, SceneFacts,
     ShadowSettings, views,
@@ -64,14 +65,15 @@ fn scene_facts(scene: &Scene) -> Result<SceneFacts, Failure> {
             facts.receivers.push(placed.name.clone());
             continue;
         }
-        let key = Arc::as_ptr(&placed.mesh);
-        if !known.contains_key(&key) {
-            let topology =
-                TopologyAwareMesh::build(&placed.mesh.positions, &placed.mesh.triangles, &BuildOptions::default())?;
-            facts.meshes.push(mesh_facts(&topology));
-            known.insert(key, (facts.meshes.len() - 1, topology.bounds_min, topology.bounds_max));
-        }
-        let (mesh, min, max) = known[&key];
+        let (mesh, min, max) = match known.entry(Arc::as_ptr(&placed.mesh)) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(place) => {
+                let TriangleMesh { positions, triangles, .. } = &*placed.mesh;
+                let topology = TopologyAwareMesh::build(positions, triangles, &BuildOptions::default())?;
+                facts.meshes.push(mesh_facts(&topology));
+                *place.insert((facts.meshes.len() - 1, topology.bounds_min, topology.bounds_max))
+            }
+        };
         let bounds = ObjectBox { min, max, world_from_object: placed.world_from_object };
         facts.casters.push(CasterFacts {
             name: placed.name.clone(),

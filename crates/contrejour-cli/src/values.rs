@@ -6,7 +6,9 @@ use contrejour_scene::Scene;
 /// `x,y,z`: three finite numbers, straight to `f32`.
 pub fn parse_vector(text: &str) -> Result<[f32; 3], String> {
     let numbers = text.split(',').map(parse_finite).collect::<Result<Vec<_>, _>>()?;
-    numbers.try_into().map_err(|numbers: Vec<f32>| format!("three numbers are needed, as in 1,2.5,-3, not {}", numbers.len()))
+    numbers
+        .try_into()
+        .map_err(|numbers: Vec<f32>| format!("three numbers are needed, as in 1,2.5,-3, not {}", numbers.len()))
 }
 
 fn parse_finite(text: &str) -> Result<f32, String> {

@@ -80,8 +80,7 @@ mod tests {
 
     #[test]
     fn depth_is_reversed() {
-        let camera =
-            Camera { eye: DVec3::ZERO, target: -DVec3::Z, up: DVec3::Y, fov_y: 1.0, near: 0.5, far: 8.0 };
+        let camera = Camera { eye: DVec3::ZERO, target: -DVec3::Z, up: DVec3::Y, fov_y: 1.0, near: 0.5, far: 8.0 };
         let clip_from_local = eye_clip_from_local(&camera, 1.5);
         let depth = |distance: f64| clip_from_local.project_point3(DVec3::new(0.0, 0.0, -distance)).z;
         assert!((depth(0.5) - 1.0).abs() < 1e-12);

@@ -153,6 +153,7 @@ fn limits(adapter: &wgpu::Limits) -> wgpu::Limits {
 
 fn sample_count(adapter: &wgpu::Adapter) -> u32 {
     let formats = [crate::targets::COLOR_FORMAT, crate::targets::DEPTH_FORMAT];
-    let all_can = formats.iter().all(|&format| adapter.get_texture_format_features(format).flags.sample_count_supported(4));
+    let all_can =
+        formats.iter().all(|&format| adapter.get_texture_format_features(format).flags.sample_count_supported(4));
     if all_can { 4 } else { 1 }
 }

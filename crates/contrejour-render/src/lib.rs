@@ -4,6 +4,7 @@
 //! diffuse and ambient light on interpolated normals, the shadow of one light, four samples a pixel. It uses the
 //! library as any renderer would.
 
+mod error;
 mod frame_uniforms;
 mod gpu;
 mod local_space;
@@ -21,12 +22,13 @@ mod stage_timer;
 mod targets;
 mod views;
 
+pub use error::{DrawError, NewRendererError};
 pub use gpu::{DeviceFault, Gpu, OpenGpuError};
 pub use local_space::LocalSpace;
 pub use measurements::{Measurements, Spread, StageCost};
 pub use png::{SaveError, save_file, save_png};
 pub use readback::{ReadError, read_buffer, read_texture};
-pub use renderer::{DrawError, NewRendererError, Renderer};
+pub use renderer::Renderer;
 pub use scene_meshes::MeshTooLarge;
 pub use silhouettes::read_silhouettes;
 pub use views::View;

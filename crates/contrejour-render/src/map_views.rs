@@ -23,11 +23,12 @@ pub(crate) fn depth_view(depth: &[f32], size: u32, empty: f32, world_per_local: 
     let farthest = f64::from(seen().fold(f32::NEG_INFINITY, f32::max));
     let range = farthest - nearest;
     let grey = |depth: f32| {
-        if !(depth < empty) {
-            return 0;
+        // Positive, so that NaN is nothing.
+        if depth < empty {
+            let share = if range > 0.0 { (f64::from(depth) - nearest) / range } else { 0.0 };
+            return (255.0 + share * (FARTHEST_GREY - 255.0)).round() as u8;
         }
-        let share = if range > 0.0 { (f64::from(depth) - nearest) / range } else { 0.0 };
-        (255.0 + share * (FARTHEST_GREY - 255.0)).round() as u8
+        0
     };
     let legend = if range.is_finite() {
         let [nearest, farthest] = [nearest, farthest].map(|depth| depth * world_per_local);

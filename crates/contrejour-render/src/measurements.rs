@@ -4,10 +4,10 @@ use contrejour_gpu::{FrameStats, Shadows};
 use contrejour_layout::Counters;
 use contrejour_plan::BufferKind;
 
+use crate::Gpu;
 use crate::readback::{ReadError, read_buffer};
 use crate::renderer::FrameCost;
 use crate::stage_timer::TimedStage;
-use crate::Gpu;
 
 /// What the frames of a [`Renderer`](crate::Renderer) cost.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,10 +62,8 @@ impl Measurements {
         stats: &FrameStats,
     ) -> Self {
         let steady = if frames.len() > 1 { &frames[1..] } else { frames };
-        let stage_cost = |stage: &TimedStage| StageCost {
-            name: stage.name.clone(),
-            gpu_ms: median(&stage.times_ms).unwrap_or(0.0),
-        };
+        let stage_cost =
+            |stage: &TimedStage| StageCost { name: stage.name.clone(), gpu_ms: median(&stage.times_ms).unwrap_or(0.0) };
         Self {
             device,
             frames: frames.len(),

@@ -2,11 +2,11 @@
 
 use contrejour_gpu::{Shadows, VisibilityKind};
 
+use crate::Gpu;
 use crate::frame_uniforms::FrameUniforms;
 use crate::scene_meshes::{SceneMeshes, VERTEX_LAYOUT, surface_layout};
 use crate::shaders::{SHADE, VISIBILITY_GROUP};
 use crate::targets::{COLOR_FORMAT, DEPTH_FORMAT};
-use crate::Gpu;
 
 const FRAME_GROUP: u32 = 0;
 const SURFACE_GROUP: u32 = 1;

@@ -48,9 +48,7 @@ pub enum SaveError {
 /// [`SaveError`]; an older file of the same name then stays as it was.
 pub fn save_png(picture: &RgbaImage, path: &Path) -> Result<(), SaveError> {
     let mut bytes = io::Cursor::new(Vec::new());
-    picture
-        .write_to(&mut bytes, ImageFormat::Png)
-        .map_err(|source| SaveError::Encode { path: path.into(), source })?;
+    picture.write_to(&mut bytes, ImageFormat::Png).map_err(|source| SaveError::Encode { path: path.into(), source })?;
     save_file(&bytes.into_inner(), path)
 }
 

@@ -4,23 +4,23 @@ use std::collections::{HashMap, VecDeque};
 use std::sync::Arc;
 
 use contrejour_gpu::{
-    AddMeshError, CasterInput, CountersError, FrameInput, MeshHandle, NewShadowsError, PassTimer, Positions,
-    PrepareError, ShadowOptions, Shadows,
+    CasterInput, CountersError, FrameInput, MeshHandle, PassTimer, Positions, PrepareError, ShadowOptions, Shadows,
 };
-use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError, TriangleMesh};
+use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TriangleMesh};
 use contrejour_plan::Light;
 use contrejour_scene::Scene;
 use cpu_time::ThreadTime;
 use glam::DMat4;
 use image::RgbaImage;
 
+use crate::error::{DrawError, MAX_REPEATS, NewRendererError};
 use crate::frame_uniforms::FrameUniforms;
-use crate::gpu::{DeviceFault, Gpu};
+use crate::gpu::Gpu;
 use crate::local_space::LocalSpace;
 use crate::measurements::{CounterLog, Measurements};
 use crate::picture_pass::{PicturePass, Shading};
 use crate::readback::{ReadError, read_picture};
-use crate::scene_meshes::{MeshTooLarge, SceneMeshes};
+use crate::scene_meshes::SceneMeshes;
 use crate::stage_timer::StageTimer;
 use crate::targets::Targets;
 
@@ -62,79 +62,9 @@ pub(crate) struct FrameCost {
     pub upload_bytes: u64,
 }
 
-/// Frames that may be under way on the device; more would only fill memory.
-const MAX_FRAMES_IN_FLIGHT: usize = 3;
-
-/// Frames after which a picture that still misses something is given up; buffers grow to what was counted, so two are
-/// enough.
-const MAX_REPEATS: usize = 8;
-
-/// Why a scene cannot be brought to the device.
-#[derive(Debug, thiserror::Error)]
-pub enum NewRendererError {
-    /// The picture is larger than the device's textures.
-    #[error("a picture of {width}x{height} is too large, the graphics device allows {limit} pixels a side; choose a smaller size")]
-    SizeTooLarge {
-        /// Width in pixels.
-        width: u32,
-        /// Height in pixels.
-        height: u32,
-        /// Most pixels a side.
-        limit: u32,
-    },
-    /// A mesh does not fit.
-    #[error(transparent)]
-    MeshTooLarge(#[from] MeshTooLarge),
-    /// The shadow settings or the device do not allow shadows.
-    #[error(transparent)]
-    Shadows(#[from] NewShadowsError),
-    /// A mesh that casts has no topology.
-    #[error("mesh {mesh:?} cannot cast a shadow")]
-    Topology {
-        /// Name of the mesh in the scene.
-        mesh: String,
-        /// What is wrong with it.
-        source: TopologyError,
-    },
-    /// A mesh that casts does not fit.
-    #[error(transparent)]
-    AddMesh(#[from] AddMeshError),
-    /// The scene's light or the device does not allow its shadow.
-    #[error(transparent)]
-    Prepare(#[from] PrepareError),
-    /// The timestamps cannot be set up.
-    #[error("the graphics device's timestamps cannot be used")]
-    Timer(#[from] wgpu_profiler::CreationError),
-    /// The device failed.
-    #[error(transparent)]
-    Device(#[from] DeviceFault),
-}
-
-/// Why a frame cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum DrawError {
-    /// The light or the device does not allow this frame.
-    #[error(transparent)]
-    Prepare(#[from] PrepareError),
-    /// The counters did not come back.
-    #[error(transparent)]
-    Counters(#[from] CountersError),
-    /// The timestamps are not used as they should.
-    #[error("the frame's timestamps cannot be used")]
-    Timer(#[from] wgpu_profiler::EndFrameError),
-    /// Waiting for the device failed.
-    #[error("waiting for the graphics device failed")]
-    Poll(#[from] wgpu::PollError),
-    /// The device failed.
-    #[error(transparent)]
-    Device(#[from] DeviceFault),
-    /// Something could not be read back.
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    /// The buffers never became large enough.
-    #[error("the frame still misses something after {MAX_REPEATS} repetitions; use a smaller mesh or a smaller map")]
-    Incomplete,
-}
+/// Frames that may be under way on the device: the CPU records one while the device works on another. With more, buffers
+/// that are too small would be found out later.
+const MAX_FRAMES_IN_FLIGHT: usize = 2;
 
 impl Renderer {
     /// Uploads a scene.
@@ -200,8 +130,7 @@ impl Renderer {
         self.shadows.encode(&mut encoder, &mut self.timer);
         let query = self.timer.begin("picture", &mut encoder);
         {
-            let mut pass =
-                self.targets.begin_pass(&mut encoder, self.background, StageTimer::render_writes(&query));
+            let mut pass = self.targets.begin_pass(&mut encoder, self.background, StageTimer::render_writes(&query));
             self.pass.draw(&mut pass, &self.lit_pipeline, &self.shadows, &self.meshes);
         }
         self.timer.end(query, &mut encoder);
@@ -291,11 +220,7 @@ fn prepare(gpu: &Gpu, shadows: &mut Shadows, casters: &[Caster], light_local: &L
 }
 
 /// Builds the topology of each mesh that casts once, however often it stands in the scene.
-fn add_casters(
-    shadows: &mut Shadows,
-    scene: &Scene,
-    local: &LocalSpace,
-) -> Result<Vec<Caster>, NewRendererError> {
+fn add_casters(shadows: &mut Shadows, scene: &Scene, local: &LocalSpace) -> Result<Vec<Caster>, NewRendererError> {
     let mut known = HashMap::new();
     let mut casters = Vec::new();
     for placed in scene.meshes.iter().filter(|placed| placed.casts && !placed.mesh.triangles.is_empty()) {

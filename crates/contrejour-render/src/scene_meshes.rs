@@ -58,7 +58,9 @@ pub(crate) const VERTEX_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::Vertex
 
 /// A mesh has more triangles or vertices than the device's buffers hold.
 #[derive(Debug, thiserror::Error)]
-#[error("mesh {name:?} needs a buffer of {bytes} bytes and the graphics device allows {limit}; split or simplify the mesh")]
+#[error(
+    "mesh {name:?} needs a buffer of {bytes} bytes and the graphics device allows {limit}; split or simplify the mesh"
+)]
 pub struct MeshTooLarge {
     /// Name of the mesh in the scene.
     pub name: String,
@@ -179,9 +181,9 @@ impl MeshBuffers {
 /// Middle of a mesh and the power of two next above its half size, so that its vertices lie in -1..1 and lose nothing
 /// to the object's place.
 fn extent(mesh: &TriangleMesh) -> (DVec3, f64) {
-    let corners = || mesh.triangles.as_flattened().iter().map(|&vertex| {
-        DVec3::from(mesh.positions[vertex as usize].map(f64::from))
-    });
+    let corners = || {
+        mesh.triangles.as_flattened().iter().map(|&vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)))
+    };
     let low = corners().fold(DVec3::INFINITY, DVec3::min);
     let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
     let half_size = 0.5 * (high - low).max_element();

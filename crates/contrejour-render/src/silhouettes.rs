@@ -4,8 +4,8 @@ use contrejour_gpu::Shadows;
 use contrejour_layout::{Counters, SilhouetteEdge};
 use contrejour_plan::BufferKind;
 
-use crate::readback::{ReadError, read_buffer};
 use crate::Gpu;
+use crate::readback::{ReadError, read_buffer};
 
 /// Reads the silhouette edges of the last frame, sorted by caster and edge; waits for them.
 ///

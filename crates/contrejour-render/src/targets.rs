@@ -36,8 +36,7 @@ impl Targets {
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let none = wgpu::TextureUsages::empty();
         let picture = texture("picture", COLOR_FORMAT, 1, wgpu::TextureUsages::COPY_SRC);
-        let samples =
-            (gpu.sample_count > 1).then(|| texture("picture samples", COLOR_FORMAT, gpu.sample_count, none));
+        let samples = (gpu.sample_count > 1).then(|| texture("picture samples", COLOR_FORMAT, gpu.sample_count, none));
         let depth = texture("picture depth", DEPTH_FORMAT, gpu.sample_count, none);
         Self {
             picture_view: view(&picture),

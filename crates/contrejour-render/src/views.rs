@@ -78,7 +78,8 @@ impl Renderer {
     fn linear_from_hardware(&self, ndc_z: &[f32]) -> Vec<f32> {
         let (near, far) = self.depth_range();
         let is_perspective = matches!(self.light_local.kind, LightKind::Spot { .. });
-        let linear = |z: f64| if is_perspective { near * far / (far + (near - far) * z) } else { near + (far - near) * z };
+        let linear =
+            |z: f64| if is_perspective { near * far / (far + (near - far) * z) } else { near + (far - near) * z };
         ndc_z.iter().map(|&z| if z < 1.0 { linear(z.into()) as f32 } else { far as f32 }).collect()
     }
 
@@ -97,8 +98,7 @@ impl Renderer {
     fn silhouette_picture(&self) -> Result<RgbaImage, ReadError> {
         let edges = read_silhouettes(&self.gpu, &self.shadows)?;
         let size = [self.targets.picture.width(), self.targets.picture.height()];
-        let lines =
-            SilhouetteLines::new(&self.gpu, &self.casters, &edges, self.uniforms.eye_clip_from_local, size);
+        let lines = SilhouetteLines::new(&self.gpu, &self.casters, &edges, self.uniforms.eye_clip_from_local, size);
         self.draw_view(Shading::Lit, self.background, Some(&lines))
     }
 
@@ -140,7 +140,8 @@ mod tests {
 
     #[test]
     fn halves() {
-        for (half, float) in [(0x0000, 0.0), (0x3c00, 1.0), (0x3800, 0.5), (0x3555, 0.33325195), (0x0001, 5.9604645e-8)] {
+        for (half, float) in [(0x0000, 0.0), (0x3c00, 1.0), (0x3800, 0.5), (0x3555, 0.33325195), (0x0001, 5.9604645e-8)]
+        {
             assert_eq!(float_from_half(half), float, "{half:04x}");
         }
     }

@@ -62,13 +62,8 @@ fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<Silhouette
     let blocks = |count: u32| (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { caster: 0, block });
     let face_items: Vec<WorkItem> = blocks(face_count).collect();
     let edge_items: Vec<WorkItem> = blocks(edge_count).collect();
-    let caster = Caster {
-        position_stride_words: 3,
-        face_count,
-        edge_count,
-        position_scale: scale,
-        ..Caster::default()
-    };
+    let caster =
+        Caster { position_stride_words: 3, face_count, edge_count, position_scale: scale, ..Caster::default() };
     // Without room for quads and corners none are kept.
     let counts = ViewCounts {
         face_items: face_items.len() as u32,

@@ -33,10 +33,8 @@ pub struct FoundVertex {
 
 /// The edges, sorted by their numbers.
 pub fn found_edges(placed: &[PlacedMesh<'_>], silhouettes: &[SilhouetteEdge]) -> Vec<FoundEdge> {
-    let mut found: Vec<FoundEdge> = silhouettes
-        .iter()
-        .map(|silhouette| found_edge(&placed[silhouette.caster as usize], silhouette))
-        .collect();
+    let mut found: Vec<FoundEdge> =
+        silhouettes.iter().map(|silhouette| found_edge(&placed[silhouette.caster as usize], silhouette)).collect();
     found.sort_by_key(|edge| (edge.low.number, edge.high.number, edge.multiplicity));
     found
 }

@@ -10,7 +10,10 @@ use super::found::FoundEdge;
 /// Vertices of the edges in world space and one `l` line an edge, which runs so that more of its faces lie on its left
 /// as seen from the light.
 pub fn obj(edges: &[FoundEdge], name: &str) -> String {
-    let mut text = format!("# Silhouette edges of {}; faces lie on the left of each line as seen from the light.\n", name.replace('\n', " "));
+    let mut text = format!(
+        "# Silhouette edges of {}; faces lie on the left of each line as seen from the light.\n",
+        name.replace('\n', " ")
+    );
     let mut line_numbers = BTreeMap::new();
     let mut lines = String::new();
     for edge in edges {

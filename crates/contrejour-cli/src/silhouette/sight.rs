@@ -37,7 +37,7 @@ impl Sight {
         }
         let [begin, end] = [begin, end].map(|point| point - self.light.truncate());
         let [begin_depth, end_depth] = [begin, end].map(|offset| offset.dot(self.forward));
-        if !(begin_depth.max(end_depth) > self.near) {
+        if begin_depth.max(end_depth) <= self.near {
             return None;
         }
         let cut = begin + (end - begin) * ((self.near - begin_depth) / (end_depth - begin_depth));

@@ -1,0 +1,81 @@
+//! What can go wrong with a scene or a frame.
+
+use contrejour_gpu::{AddMeshError, CountersError, NewShadowsError, PrepareError};
+use contrejour_mesh::TopologyError;
+
+use crate::gpu::DeviceFault;
+use crate::readback::ReadError;
+use crate::scene_meshes::MeshTooLarge;
+
+/// Frames after which a picture that still misses something is given up; buffers grow to what was counted, so two are
+/// enough.
+pub(crate) const MAX_REPEATS: usize = 8;
+
+/// Why a scene cannot be brought to the device.
+#[derive(Debug, thiserror::Error)]
+pub enum NewRendererError {
+    /// The picture is larger than the device's textures.
+    #[error(
+        "a picture of {width}x{height} is too large, the graphics device allows {limit} pixels a side; choose a smaller size"
+    )]
+    SizeTooLarge {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// Most pixels a side.
+        limit: u32,
+    },
+    /// A mesh does not fit.
+    #[error(transparent)]
+    MeshTooLarge(#[from] MeshTooLarge),
+    /// The shadow settings or the device do not allow shadows.
+    #[error(transparent)]
+    Shadows(#[from] NewShadowsError),
+    /// A mesh that casts has no topology.
+    #[error("mesh {mesh:?} cannot cast a shadow")]
+    Topology {
+        /// Name of the mesh in the scene.
+        mesh: String,
+        /// What is wrong with it.
+        source: TopologyError,
+    },
+    /// A mesh that casts does not fit.
+    #[error(transparent)]
+    AddMesh(#[from] AddMeshError),
+    /// The scene's light or the device does not allow its shadow.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+    /// The timestamps cannot be set up.
+    #[error("the graphics device's timestamps cannot be used")]
+    Timer(#[from] wgpu_profiler::CreationError),
+    /// The device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceFault),
+}
+
+/// Why a frame cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum DrawError {
+    /// The light or the device does not allow this frame.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+    /// The counters did not come back.
+    #[error(transparent)]
+    Counters(#[from] CountersError),
+    /// The timestamps are not used as they should.
+    #[error("the frame's timestamps cannot be used")]
+    Timer(#[from] wgpu_profiler::EndFrameError),
+    /// Waiting for the device failed.
+    #[error("waiting for the graphics device failed")]
+    Poll(#[from] wgpu::PollError),
+    /// The device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceFault),
+    /// Something could not be read back.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The buffers never became large enough.
+    #[error("the frame still misses something after {MAX_REPEATS} repetitions; use a smaller mesh or a smaller map")]
+    Incomplete,
+}
