@@ -43,7 +43,9 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         _ => None,
     };
     let mut scene = scenes::open(arguments.scene.as_deref())?;
-    scene.size = arguments.size.unwrap_or(scene.size);
+    if let Some(size) = arguments.size {
+        scene.resize(size);
+    }
     let options = ShadowOptions {
         settings: arguments.shadow.applied_to(scene.shadow)?,
         outputs: Outputs::Maps,

@@ -90,6 +90,16 @@ impl Scene {
         self.meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union)
     }
 
+    /// Gives the picture another size. A narrower one keeps what is seen from side to side, so it opens upwards.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        let width_tangent = (0.5 * self.camera.fov_y).tan() * self.aspect();
+        let old_aspect = self.aspect();
+        self.size = size;
+        if self.aspect() < old_aspect {
+            self.camera.fov_y = 2.0 * (width_tangent / self.aspect()).atan();
+        }
+    }
+
     /// Width of the picture over its height.
     pub fn aspect(&self) -> f64 {
         f64::from(self.size[0]) / f64::from(self.size[1])

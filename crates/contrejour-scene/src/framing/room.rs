@@ -6,8 +6,12 @@ use glam::DVec3;
 use super::{camera_depths, cone_angle, light_depths, with_some_size};
 use crate::{Bounds, Camera, Scene, SceneMesh};
 
-/// Share of the faces' area that must face the middle.
-const INWARD_SHARE: f64 = 0.6;
+/// Directions in which one looks from the middle.
+const LOOKS: usize = 64;
+/// Share of them in which one must see the front of a face: a room may lack a wall.
+const FRONT_SHARE: f64 = 0.7;
+/// What is nearer than this share of the way to the walls stands in the room.
+const BEFORE_WALLS: f64 = 0.8;
 const CAMERA_FOV_Y_DEGREES: f64 = 65.0;
 /// Eye and lamp, from the middle (0) to the sides (1) of the room.
 const EYE: DVec3 = DVec3::new(0.2, 0.1, 0.88);
@@ -16,29 +20,68 @@ const LAMP: DVec3 = DVec3::new(0.0, 0.8, 0.1);
 const LAMP_RADIUS: f64 = 0.05;
 const LAMP_COLOR: [f32; 3] = [0.8, 0.76, 0.7];
 
-/// Whether most of the surface faces the middle: walls, floor and ceiling of a room.
+/// Whether the middle is a place within: almost wherever one looks from there, one sees a front, and some of what one
+/// sees stands before the walls. So neither a body whose faces are wound inward is a room, nor a cloth.
 pub(super) fn is_room(meshes: &[SceneMesh], bounds: &Bounds) -> bool {
     if bounds.is_empty() || bounds.size().min_element() <= 0.1 * bounds.size().max_element() {
         return false;
     }
-    let middle = bounds.center();
-    let (mut inward, mut all) = (0.0, 0.0);
+    let mut sights = looks().map(|direction| Sight { direction, distance: f64::INFINITY, is_front: false });
     for placed in meshes {
         let world = |vertex: u32| {
             let position = placed.mesh.positions[vertex as usize].map(f64::from);
-            placed.world_from_object.transform_point3(DVec3::from(position)) - middle
+            placed.world_from_object.transform_point3(DVec3::from(position)) - bounds.center()
         };
         let mirrored = placed.world_from_object.determinant() < 0.0;
         for triangle in &placed.mesh.triangles {
-            let [a, b, c] = triangle.map(world);
-            let front = (b - a).cross(c - a);
-            let area = front.length();
-            let faces_middle = (front.dot(a + b + c) < 0.0) != mirrored;
-            all += area;
-            inward += if faces_middle { area } else { 0.0 };
+            let corners = triangle.map(world);
+            for sight in &mut sights {
+                sight.meet(corners, mirrored);
+            }
         }
     }
-    inward > INWARD_SHARE * all
+    let half = 0.5 * bounds.size();
+    let to_wall = |direction: DVec3| (half / direction.abs()).min_element();
+    let fronts = sights.iter().filter(|sight| sight.is_front).count();
+    let before_walls =
+        sights.iter().any(|sight| sight.is_front && sight.distance < BEFORE_WALLS * to_wall(sight.direction));
+    fronts as f64 >= FRONT_SHARE * LOOKS as f64 && before_walls
+}
+
+/// What one sees from the middle in one direction.
+#[derive(Clone, Copy, Debug)]
+struct Sight {
+    direction: DVec3,
+    distance: f64,
+    is_front: bool,
+}
+
+impl Sight {
+    /// Keeps the triangle if it is the nearest so far. Moller & Trumbore 1997.
+    fn meet(&mut self, [a, b, c]: [DVec3; 3], mirrored: bool) {
+        let (ab, ac) = (b - a, c - a);
+        let across = self.direction.cross(ac);
+        let determinant = ab.dot(across);
+        let u = -a.dot(across) / determinant;
+        let around = ab.cross(a);
+        let v = self.direction.dot(around) / determinant;
+        let distance = ac.dot(around) / determinant;
+        if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0 && distance < self.distance {
+            self.distance = distance;
+            self.is_front = (determinant > 0.0) != mirrored;
+        }
+    }
+}
+
+/// Directions all around, evenly spread: a Fibonacci sphere.
+fn looks() -> [DVec3; LOOKS] {
+    let golden_angle = core::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    core::array::from_fn(|i| {
+        let y = 1.0 - (2.0 * i as f64 + 1.0) / LOOKS as f64;
+        let (sine, cosine) = (golden_angle * i as f64).sin_cos();
+        let ring = (1.0 - y * y).sqrt();
+        DVec3::new(ring * cosine, y, ring * sine)
+    })
 }
 
 /// The room from its front wall, lit by a lamp under its ceiling.

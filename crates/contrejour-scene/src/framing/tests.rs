@@ -131,21 +131,6 @@ fn nothing_and_a_point_have_a_scene_too() {
 }
 
 #[test]
-fn a_room_is_seen_from_within_and_gets_no_floor() {
-    // A box turned inside out.
-    let scene =
-        Scene::around(placed(Shape::Box { size: [4.0, 3.0, 4.0] }, DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0))));
-    assert_eq!(scene.meshes.len(), 2, "a mirrored box is no room");
-    let mut file = placed(Shape::Box { size: [4.0, 3.0, 4.0] }, DMat4::IDENTITY);
-    file.meshes[0].triangles.iter_mut().for_each(|triangle| triangle.reverse());
-    let room = Scene::around(file);
-    assert_eq!(room.meshes.len(), 1);
-    let inside = |point: DVec3| point.cmpgt(room.bounds().min).all() && point.cmplt(room.bounds().max).all();
-    let LightKind::Spot { position, .. } = room.light.kind else { panic!("a lamp was asked for") };
-    assert!(inside(room.camera.eye) && inside(position));
-}
-
-#[test]
 fn meshes_that_nobody_here_made_have_a_scene() {
     let folder = std::env::var_os("CONTREJOUR_MESHES")
         .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/meshes"), PathBuf::from);
@@ -163,4 +148,35 @@ fn meshes_that_nobody_here_made_have_a_scene() {
         opened += 1;
     }
     println!("{opened} meshes from files");
+}
+
+#[test]
+fn a_narrower_picture_keeps_the_sides() {
+    let mut scene = Scene::around(placed(Shape::Box { size: [4.0, 1.0, 4.0] }, DMat4::IDENTITY));
+    scene.resize([300, 900]);
+    assert_in_picture(&scene, &subject(&scene).corners(), "a narrow picture");
+}
+
+#[test]
+fn a_room_has_walls_around_and_something_within() {
+    let inward = |size: f64| DMat4::from_scale(DVec3::new(-size, size, size));
+    let shell = Shape::Box { size: [1.0; 3] }.generate().expect("a unit box");
+    let mut turned = shell.clone();
+    turned.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+    let file =
+        |nodes: Vec<MeshNode>| MeshFile { meshes: vec![shell.clone(), turned.clone()], nodes, ..MeshFile::default() };
+    let has_floor = |file| Scene::around(file).meshes.iter().any(|mesh| mesh.name == "floor");
+
+    let hull = || MeshNode { mesh: 1, world_from_object: DMat4::from_scale(DVec3::splat(8.0)) };
+    let body = || MeshNode { mesh: 0, world_from_object: DMat4::from_translation(DVec3::new(1.0, 0.0, 1.0)) };
+    let room = Scene::around(file(vec![hull(), body()]));
+    let inside = |point: DVec3| point.cmpgt(room.bounds().min).all() && point.cmplt(room.bounds().max).all();
+    let LightKind::Spot { position, .. } = room.light.kind else { panic!("a lamp was asked for") };
+    assert!(inside(room.camera.eye) && inside(position));
+
+    assert!(!has_floor(file(vec![hull(), body()])), "a room with a box in it");
+    assert!(has_floor(file(vec![hull()])), "a body whose faces are wound inward");
+    assert!(has_floor(file(vec![body()])), "a body");
+    let mirrored = MeshNode { mesh: 0, world_from_object: inward(8.0) };
+    assert!(has_floor(file(vec![mirrored, body()])), "a mirrored body stays a body");
 }
