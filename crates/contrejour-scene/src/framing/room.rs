@@ -8,8 +8,10 @@ use crate::{Bounds, Camera, Scene, SceneMesh};
 
 /// Directions in which one looks from the middle.
 const LOOKS: usize = 64;
-/// Share of them in which one must see the front of a face: a room may lack a wall.
-const FRONT_SHARE: f64 = 0.7;
+/// In so many of them one must see the front of a face: a room may lack a wall.
+const FRONTS: usize = 44;
+/// In so many of them that must be a wall.
+const WALLS: usize = 32;
 /// What is nearer than this share of the way to the walls stands in the room.
 const BEFORE_WALLS: f64 = 0.8;
 const CAMERA_FOV_Y_DEGREES: f64 = 65.0;
@@ -20,8 +22,8 @@ const LAMP: DVec3 = DVec3::new(0.0, 0.8, 0.1);
 const LAMP_RADIUS: f64 = 0.05;
 const LAMP_COLOR: [f32; 3] = [0.8, 0.76, 0.7];
 
-/// Whether the middle is a place within: almost wherever one looks from there, one sees a front, and some of what one
-/// sees stands before the walls. So neither a body whose faces are wound inward is a room, nor a cloth.
+/// Whether the middle is a place within: almost wherever one looks from there, one sees a front, mostly a wall, and some
+/// of what one sees stands before the walls. So neither a body whose faces are wound inward is a room, nor a cloth.
 pub(super) fn is_room(meshes: &[SceneMesh], bounds: &Bounds) -> bool {
     if bounds.is_empty() || bounds.size().min_element() <= 0.1 * bounds.size().max_element() {
         return false;
@@ -42,10 +44,10 @@ pub(super) fn is_room(meshes: &[SceneMesh], bounds: &Bounds) -> bool {
     }
     let half = 0.5 * bounds.size();
     let to_wall = |direction: DVec3| (half / direction.abs()).min_element();
-    let fronts = sights.iter().filter(|sight| sight.is_front).count();
-    let before_walls =
-        sights.iter().any(|sight| sight.is_front && sight.distance < BEFORE_WALLS * to_wall(sight.direction));
-    fronts as f64 >= FRONT_SHARE * LOOKS as f64 && before_walls
+    let is_wall = |sight: &&Sight| sight.distance >= BEFORE_WALLS * to_wall(sight.direction);
+    let fronts = || sights.iter().filter(|sight| sight.is_front);
+    let walls = fronts().filter(is_wall).count();
+    fronts().count() >= FRONTS && (WALLS..fronts().count()).contains(&walls)
 }
 
 /// What one sees from the middle in one direction.
