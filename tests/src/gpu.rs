@@ -40,6 +40,15 @@ pub fn gpu_blending_floats() -> Result<&'static Gpu, &'static str> {
     GPU.get_or_init(|| open(wgpu::Features::FLOAT32_BLENDABLE)).as_ref().map_err(String::as_str)
 }
 
+/// A device that no other test uses, so that its counters tell of one test alone.
+///
+/// # Errors
+///
+/// Why there is none, in one line.
+pub fn gpu_alone() -> Result<Gpu, String> {
+    open(wgpu::Features::empty())
+}
+
 fn open(features: wgpu::Features) -> Result<Gpu, String> {
     fn text(error: impl Display) -> String {
         error.to_string().replace('\n', " ")

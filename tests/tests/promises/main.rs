@@ -2,6 +2,7 @@
 
 mod closed;
 mod exact;
+mod left_out;
 mod no_gaps;
 mod nothing_lost;
 mod nothing_per_edge;
@@ -17,6 +18,7 @@ fn main() -> ExitCode {
         nothing_lost::trials(),
         nothing_per_edge::trials(),
         no_gaps::trials(),
+        left_out::trials(),
     ];
     contrejour_tests::harness::run(trials.into_iter().flatten().collect())
 }

@@ -31,7 +31,7 @@ const STAGES: [&str; 8] = [
 pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("nothing_lost::full_lists_are_counted_and_grow", full_lists_are_counted_and_grow),
-        gpu_trial("nothing_lost::every_mesh_leaves_finite_maps", |gpu| every_mesh_leaves_finite_maps(gpu)),
+        gpu_trial("nothing_lost::every_mesh_leaves_finite_maps", every_mesh_leaves_finite_maps),
         gpu_trial("nothing_lost::every_mesh_leaves_finite_maps_in_one_texture", |_| match gpu_blending_floats() {
             Ok(gpu) => every_mesh_leaves_finite_maps(gpu),
             Err(reason) => {
