@@ -41,7 +41,7 @@ struct ShadeVertex {
 /// `Surface` in `shaders/raster/shade.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Surface {
+pub(crate) struct Surface {
     local_from_vertex: [f32; 16],
     local_normal_from_object: [[f32; 4]; 3],
     base_color: [f32; 4],

@@ -15,3 +15,47 @@ pub(crate) const SILHOUETTE_LINES: &str = wgsl!("raster/silhouette_lines.wgsl");
 
 /// The bind group of the light's maps in [`SHADE`].
 pub(crate) const VISIBILITY_GROUP: u32 = 2;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+    use crate::frame_uniforms::FrameUniforms;
+    use crate::scene_meshes::Surface;
+    use crate::silhouette_lines::Overlay;
+
+    /// The module, which must be valid without any feature of the device.
+    fn valid(wgsl: &str) -> naga::Module {
+        let module =
+            naga::front::wgsl::parse_str(wgsl).unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)));
+        let checked = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
+        checked.unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)));
+        module
+    }
+
+    fn size_of_struct(module: &naga::Module, name: &str) -> usize {
+        let types = module.types.iter().map(|(_, described)| described);
+        let found = types.filter(|described| described.name.as_deref() == Some(name)).find_map(|described| {
+            match described.inner {
+                naga::TypeInner::Struct { span, .. } => Some(span as usize),
+                _ => None,
+            }
+        });
+        found.unwrap_or_else(|| panic!("the module has a struct {name}"))
+    }
+
+    #[test]
+    fn shading_is_valid() {
+        // The library's own tests check its functions; here one of that name will do.
+        let function = "fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 { return 1.0; }";
+        let module = valid(&format!("{SHADE}\n{function}"));
+        assert_eq!(size_of_struct(&module, "Frame"), size_of::<FrameUniforms>());
+        assert_eq!(size_of_struct(&module, "Surface"), size_of::<Surface>());
+    }
+
+    #[test]
+    fn silhouette_lines_are_valid() {
+        assert_eq!(size_of_struct(&valid(SILHOUETTE_LINES), "Overlay"), size_of::<Overlay>());
+    }
+}

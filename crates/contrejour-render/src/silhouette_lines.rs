@@ -23,7 +23,7 @@ pub(crate) struct SilhouetteLines {
 /// `Overlay` in `shaders/raster/silhouette_lines.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Overlay {
+pub(crate) struct Overlay {
     eye_clip_from_local: [f32; 16],
     half_size: [f32; 2],
     half_width_pixels: f32,
