@@ -46,7 +46,9 @@ pub fn all() -> Vec<Module> {
     ] {
         let shared = ["receiver", "receiver_lookup"].iter().chain(variant);
         let shared = shared.map(|name| shader_file(&format!("shared/{name}.wgsl")));
-        let files: Vec<_> = std::iter::once(shader_file("raster/shade.wgsl")).chain(shared).collect();
+        // As the library's `visibility_wgsl` writes it for the renderer's bind group.
+        let own = [shader_file("raster/shade.wgsl"), "const CONTREJOUR_GROUP = 2u;".into()];
+        let files: Vec<_> = own.into_iter().chain(shared).collect();
         modules.push(Module { name: format!("shade+{}", variant.join("+")), wgsl: files.join("\n") });
     }
     modules.push(Module { name: "silhouette_lines".into(), wgsl: shader_file("raster/silhouette_lines.wgsl") });
