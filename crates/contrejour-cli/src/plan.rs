@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
-use contrejour_mesh::{BuildOptions, EdgeClass, TopologyAwareMesh, TriangleMesh};
+use contrejour_gpu::mesh_facts;
+use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TriangleMesh};
 use contrejour_plan::{
-    Capacity, CasterFacts, DeviceFacts, FramePlan, MeshFacts, ObjectBox, Outputs, PlanInput, SceneFacts,
-    ShadowSettings, views,
+    Capacity, CasterFacts, DeviceFacts, FramePlan, ObjectBox, Outputs, PlanInput, SceneFacts, ShadowSettings, views,
 };
 use contrejour_render::Gpu;
 use contrejour_scene::Scene;
@@ -83,18 +83,4 @@ fn scene_facts(scene: &Scene) -> Result<SceneFacts, Failure> {
         });
     }
     Ok(facts)
-}
-
-fn mesh_facts(topology: &TopologyAwareMesh) -> MeshFacts {
-    let candidates = &topology.edge_classes[..topology.candidate_edge_count as usize];
-    let is_other = |class: &&EdgeClass| matches!(class, EdgeClass::Border | EdgeClass::NonManifold);
-    let other_edges = candidates.iter().filter(is_other).count() as u32;
-    MeshFacts {
-        vertices: topology.positions.len() as u32,
-        faces: topology.faces.len() as u32,
-        two_face_edges: topology.candidate_edge_count - other_edges,
-        other_edges,
-        incidence_words: topology.incidences.len() as u32,
-        vertex_edges: topology.vertex_edges.len() as u32,
-    }
 }

@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::args::RenderArguments;
 use crate::failure::Failure;
 use crate::frame_names::FrameNames;
-use crate::output::print;
+use crate::output::{print, warn};
 use crate::render_json::{json, summary};
 use crate::scenes;
 
@@ -43,6 +43,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         _ => None,
     };
     let mut scene = scenes::open(arguments.scene.as_deref())?;
+    scene.warnings.iter().for_each(|warning| warn(warning));
     if let Some(size) = arguments.size {
         scene.resize(size);
     }

@@ -81,6 +81,9 @@ pub enum CountersError {
     /// The device was lost or the wait failed.
     #[error("the device did not finish the frame: {0}")]
     Poll(#[from] wgpu::PollError),
+    /// A frame was encoded and its commands were not submitted.
+    #[error("an encoded frame was not submitted: submit its encoder before waiting for its counters")]
+    NotSubmitted,
     /// No frame with silhouette stages is under way.
     #[error("no frame with counters was submitted: call prepare, encode and submit first")]
     NoFrame,

@@ -24,7 +24,7 @@ mod visibility;
 
 pub use casters::{CasterInput, Positions};
 pub use error::{AddMeshError, CountersError, NewShadowsError, PrepareError};
-pub use pool::MeshHandle;
-pub use shadows::{FrameInput, FrameStats, Maps, ShadowOptions, Shadows};
+pub use pool::{MeshHandle, mesh_facts};
+pub use shadows::{FrameInput, FrameStats, Maps, ShadowOptions, Shadows, device_facts};
 pub use timer::{PassTimer, Untimed};
 pub use visibility::{EyeInput, VisibilityKind};

@@ -83,7 +83,7 @@ impl MeshPool {
             bounds_min: mesh.bounds_min,
             bounds_max: mesh.bounds_max,
         });
-        self.facts.push(facts(&mesh));
+        self.facts.push(mesh_facts(&mesh));
         self.words = after;
         self.meshes.push(mesh);
         Ok(MeshHandle(self.meshes.len() - 1))
@@ -136,7 +136,8 @@ impl MeshPool {
     }
 }
 
-fn facts(mesh: &TopologyAwareMesh) -> MeshFacts {
+/// What the frame plan needs to know of a mesh.
+pub fn mesh_facts(mesh: &TopologyAwareMesh) -> MeshFacts {
     let candidates = &mesh.edge_classes[..mesh.candidate_edge_count as usize];
     let is_other = |class: &&EdgeClass| matches!(class, EdgeClass::Border | EdgeClass::NonManifold);
     let other_edges = candidates.iter().filter(is_other).count() as u32;

@@ -17,6 +17,7 @@ const BYTES: u64 = size_of::<Counters>() as u64;
 #[derive(Debug)]
 pub(crate) struct CounterReadback {
     slots: Vec<Slot>,
+    next_frame: u64,
 }
 
 #[derive(Debug)]
@@ -25,6 +26,8 @@ struct Slot {
     state: Arc<AtomicU8>,
     /// Room that the counted frame had.
     capacity: Capacity,
+    /// The counted frame's place among all.
+    frame: u64,
 }
 
 const FREE: u8 = 0;
@@ -58,8 +61,9 @@ impl CounterReadback {
             }),
             state: Arc::new(AtomicU8::new(FREE)),
             capacity: Capacity::default(),
+            frame: 0,
         };
-        Self { slots: (0..SLOTS).map(|_| slot()).collect() }
+        Self { slots: (0..SLOTS).map(|_| slot()).collect(), next_frame: 0 }
     }
 
     /// Records the copy of a frame's counters, if a slot is free.
@@ -67,6 +71,8 @@ impl CounterReadback {
         let free = self.slots.iter_mut().find(|slot| slot.state.load(Ordering::Acquire) == FREE);
         let Some(slot) = free else { return };
         slot.capacity = capacity;
+        slot.frame = self.next_frame;
+        self.next_frame += 1;
         slot.state.store(UNDER_WAY, Ordering::Release);
         let ticket = Ticket(Arc::clone(&slot.state));
         encoder.copy_buffer_to_buffer(counters, 0, &slot.buffer, 0, BYTES);
@@ -77,8 +83,9 @@ impl CounterReadback {
         });
     }
 
-    /// Takes what has arrived.
+    /// Takes what has arrived, oldest frame first.
     pub fn arrived(&mut self) -> Vec<CountedFrame> {
+        self.slots.sort_by_key(|slot| slot.frame);
         let mut frames = Vec::new();
         for slot in self.slots.iter().filter(|slot| slot.state.load(Ordering::Acquire) == MAPPED) {
             if let Ok(view) = slot.buffer.slice(..).get_mapped_range() {
@@ -89,5 +96,10 @@ impl CounterReadback {
             slot.state.store(FREE, Ordering::Release);
         }
         frames
+    }
+
+    /// Whether counters of an encoded frame are still under way.
+    pub fn is_pending(&self) -> bool {
+        self.slots.iter().any(|slot| slot.state.load(Ordering::Acquire) == UNDER_WAY)
     }
 }

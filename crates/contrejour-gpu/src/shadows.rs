@@ -1,8 +1,9 @@
 //! The one object that a renderer talks to.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
-use contrejour_layout::Counters;
+use contrejour_layout::{CasterLight, Counters};
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, Light, Outputs, ShadowSettings, TextureKind};
 
@@ -71,6 +72,8 @@ pub struct FrameStats {
     pub readback_waits: u64,
     /// Casters of the last frame whose matrix is singular: they cast nothing.
     pub singular_casters: u32,
+    /// Casters of the last frame whose clip space `f32` can't hold: they have a silhouette and throw no shadow.
+    pub imageless_casters: u32,
     /// Whether the last frame was like the one before, so that its maps stand and no pass was recorded.
     pub is_unchanged: bool,
     /// Counters of the latest frame that has arrived.
@@ -300,6 +303,14 @@ impl Shadows {
     pub fn wait_for_counters(&mut self, device: &wgpu::Device) -> Result<Counters, CountersError> {
         self.stats.readback_waits += 1;
         device.poll(wgpu::PollType::wait_indefinitely())?;
+        // Another thread that polls the same device may still have our callback to run.
+        let patience = Instant::now() + CALLBACK_PATIENCE;
+        while self.readback.is_pending() {
+            if Instant::now() > patience {
+                return Err(CountersError::NotSubmitted);
+            }
+            std::thread::yield_now();
+        }
         self.collect_counters(device);
         self.stats.counters.ok_or(CountersError::NoFrame)
     }
@@ -370,6 +381,8 @@ impl Shadows {
         self.stats.is_unchanged = is_same && self.is_encoded;
         self.stats.upload_bytes = 0;
         self.stats.set_up_bytes = set_up_bytes;
+        self.stats.imageless_casters =
+            plan.casting.iter().filter(|caster| has_no_image(&records.caster_lights[**caster])).count() as u32;
         self.stats.singular_casters = plan.singular_casters;
         if !is_same {
             let records: [(BufferKind, &[u8]); 3] = [
@@ -392,7 +405,12 @@ impl Shadows {
     }
 }
 
-fn device_facts(device: &wgpu::Device) -> DeviceFacts {
+fn has_no_image(light: &CasterLight) -> bool {
+    light.light_clip_from_object == [0.0; 16]
+}
+
+/// What the frame plan needs to know of a device.
+pub fn device_facts(device: &wgpu::Device) -> DeviceFacts {
     let limits = device.limits();
     DeviceFacts {
         float32_blendable: device.features().contains(wgpu::Features::FLOAT32_BLENDABLE),
@@ -401,5 +419,8 @@ fn device_facts(device: &wgpu::Device) -> DeviceFacts {
         max_texture_dimension_2d: limits.max_texture_dimension_2d,
     }
 }
+
+/// How long a callback may take once the device is idle.
+const CALLBACK_PATIENCE: Duration = Duration::from_secs(2);
 
 const NOT_PREPARED: &str = "no maps yet: call `prepare` first, with options that want maps";

@@ -104,13 +104,7 @@ impl Gpu {
 
     /// What the frame plan needs to know of the device.
     pub fn facts(&self) -> DeviceFacts {
-        let limits = self.device.limits();
-        DeviceFacts {
-            float32_blendable: self.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE),
-            max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
-            max_buffer_size: limits.max_buffer_size,
-            max_texture_dimension_2d: limits.max_texture_dimension_2d,
-        }
+        contrejour_gpu::device_facts(&self.device)
     }
 
     /// Tells what the device reported outside of any call.

@@ -7,6 +7,9 @@ use super::MeshFacts;
 /// Capacities end at a multiple of this, so that small differences between frames do not matter.
 const GRANULE: u64 = 64;
 
+/// Small meshes have outlines far from the estimate, and room for them costs nothing.
+const LEAST_ROOM: u64 = 4096;
+
 /// Room for quads and corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -23,21 +26,25 @@ impl Capacity {
         needed.quads <= self.quads && needed.corners <= self.corners
     }
 
-    /// The capacity for the next frame after one that counted `needed`: where that was too much a quarter more than
-    /// needed, else as it is.
+    /// The capacity for the next frame after one that counted `needed` with this one: where that was too much a quarter
+    /// more than needed, else as it is. Only quads that fit count their corners, so the corners of the others are
+    /// expected in proportion.
     pub fn grown_for(self, needed: &Counters) -> Self {
-        let grown = |capacity: u32, needed: u32| {
-            if needed <= capacity {
+        let grown = |capacity: u32, needed: u64| {
+            if needed <= capacity.into() {
                 return capacity;
             }
-            saturating_u32(round_up(u64::from(needed) + u64::from(needed).div_ceil(4)))
+            saturating_u32(round_up(needed + needed.div_ceil(4)))
         };
-        Self { quads: grown(self.quads, needed.quads), corners: grown(self.corners, needed.corners) }
+        let quads = u64::from(needed.quads);
+        let quads_that_fit = quads.min(self.quads.into()).max(1);
+        let corners = (u64::from(needed.corners) * quads).div_ceil(quads_that_fit);
+        Self { quads: grown(self.quads, quads), corners: grown(self.corners, corners.max(needed.corners.into())) }
     }
 
     /// Room for a first frame of casters with these meshes, at least `floor`, at most what they can ever need.
     pub(super) fn of_casters<'a>(meshes: impl Iterator<Item = &'a MeshFacts> + Clone, floor: Self) -> Self {
-        let outline_edges = round_up(meshes.clone().map(estimated_outline_edges).sum());
+        let outline_edges = round_up(meshes.clone().map(estimated_outline_edges).sum()).max(LEAST_ROOM);
         let most_edges = meshes.map(MeshFacts::edges).sum();
         let between = |floor: u32, most: u64| saturating_u32(outline_edges.max(floor.into()).min(most));
         // An outline that is a loop has as many vertices as edges, and at most one wedge at each. Where many edges
@@ -99,7 +106,10 @@ mod tests {
         let counted = Counters { quads: 100, corners: 64, ..Counters::default() };
         assert!(!capacity.holds(&counted));
         let grown = capacity.grown_for(&counted);
-        assert_eq!(grown, Capacity { quads: 128, corners: 64 });
+        // 64 corners at 64 of 100 quads are 100 corners.
+        assert_eq!(grown, Capacity { quads: 128, corners: 128 });
+        let fits = Counters { quads: 64, corners: 65, ..Counters::default() };
+        assert_eq!(capacity.grown_for(&fits), Capacity { quads: 64, corners: 128 });
         assert!(grown.holds(&counted));
         let counted = Counters { quads: u32::MAX, ..Counters::default() };
         assert_eq!(capacity.grown_for(&counted).quads, u32::MAX);

@@ -7,18 +7,21 @@ use super::power_of_two::exponent_of;
 use super::{View, object_light};
 
 /// The light and the matrix of `view` for a caster whose positions are multiplied by `position_scale` (a power of
-/// two) before the matrix. `casts` is 0 where the caster's matrix is singular or its clip space overflows `f32`.
+/// two) before the matrix.
+///
+/// `casts` is 0 where the caster's matrix is singular. Where `f32` can't hold its clip space, the matrix is zero: its
+/// silhouette is found, its outline projects to a point.
 pub fn caster_light(view: &View, world_from_object: &DMat4, position_scale: f32) -> CasterLight {
     let light = object_light(view.light_world, world_from_object);
     // The scale is undone before the one rounding to f32.
     let object_from_scaled = DMat4::from_scale(DVec3::splat(f64::from(position_scale).recip()));
     let light_clip_from_object = (view.light_clip_from_world * *world_from_object * object_from_scaled).as_mat4();
-    let casts = !light.singular && light_clip_from_object.is_finite();
+    let has_image = !light.singular && light_clip_from_object.is_finite();
     CasterLight {
         light_object: light.bits,
-        light_clip_from_object: if casts { light_clip_from_object.to_cols_array() } else { [0.0; 16] },
+        light_clip_from_object: if has_image { light_clip_from_object.to_cols_array() } else { [0.0; 16] },
         mirrored: light.mirrored.into(),
-        casts: casts.into(),
+        casts: (!light.singular).into(),
         unused_0: 0,
         unused_1: 0,
     }
@@ -81,9 +84,10 @@ mod tests {
     }
 
     #[test]
-    fn a_clip_space_beyond_f32_casts_nothing() {
+    fn a_clip_space_beyond_f32_keeps_the_light_and_has_no_image() {
         let record = caster_light(&view(), &DMat4::from_scale(DVec3::splat(1e30)), 2.0_f32.powi(-100));
-        assert_eq!(record.casts, 0);
+        assert_eq!((record.casts, record.light_clip_from_object), (1, [0.0; 16]));
+        assert_eq!(f32::from_bits(record.light_object[3]), 1.0);
     }
 
     #[test]
