@@ -7,8 +7,8 @@ use contrejour_plan::{
 
 use crate::casters::{CasterInput, CasterKey, CasterSet, LivePositions, Positions};
 use crate::error::PrepareError;
+use crate::inputs::{FrameInput, ShadowOptions};
 use crate::pool::{MeshPool, MeshRange};
-use crate::shadows::{FrameInput, ShadowOptions};
 
 /// A prepared frame that has not touched the device yet.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ mod smoothie_depth;
 
 use contrejour_plan::{Pass, TextureKind};
 
-use crate::shaders::{ShaderModule, wgsl};
+use crate::wgsl::{ShaderModule, wgsl};
 
 /// A pass over a light view's maps. It binds [`Pass::buffers`] in their order, but for the draw arguments; then the
 /// shadow map's linear depth where it reads that. Entry points and override constants are the plan's.

@@ -1,7 +1,7 @@
 use contrejour_plan::{Pass, TextureKind};
 
 use super::{ClearColor, ColorTarget, DepthTarget, DrawCount, MapPass};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Hardware depth and linear depth of every caster.
 pub(super) const SHADOW_MAP: MapPass = MapPass {

@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Ends of quads to the wedges between them.
 pub(super) const BUILD_CORNERS: ComputeStage = ComputeStage {

@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// One lit bit for each face, by floats where their bound allows; the others are listed.
 pub(super) const CLASSIFY_FACES: ComputeStage = ComputeStage {

@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Lit bits to the list of silhouette edges.
 pub(super) const DETECT_SILHOUETTE: ComputeStage = ComputeStage {

@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Outline edges to quads on the image plane.
 pub(super) const EXTRUDE_EDGES: ComputeStage = ComputeStage {

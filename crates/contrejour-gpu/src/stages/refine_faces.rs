@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Undecided faces by short integers.
 pub(super) const REFINE_FACES: ComputeStage = ComputeStage {

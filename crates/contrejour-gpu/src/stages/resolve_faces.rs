@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Undecided faces by full integers.
 pub(super) const RESOLVE_FACES: ComputeStage = ComputeStage {

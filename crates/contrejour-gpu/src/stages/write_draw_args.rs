@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Counts to indirect draws.
 pub(super) const WRITE_DRAW_ARGS: ComputeStage = ComputeStage {

@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Silhouette edges to workgroups of the stages that extrude them.
 pub(super) const WRITE_EXTRUDE_ARGS: ComputeStage = ComputeStage {

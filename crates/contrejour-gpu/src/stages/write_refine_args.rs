@@ -1,7 +1,7 @@
 use contrejour_plan::{BufferKind, Stage};
 
 use super::{ComputeStage, Dispatch};
-use crate::shaders::wgsl;
+use crate::wgsl::wgsl;
 
 /// Undecided faces to workgroups of the two exact tiers.
 pub(super) const WRITE_REFINE_ARGS: ComputeStage = ComputeStage {

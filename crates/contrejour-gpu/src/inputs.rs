@@ -1,0 +1,81 @@
+//! What goes into a frame and what is known of it.
+
+use contrejour_layout::Counters;
+use contrejour_plan::{DeviceFacts, Light, Outputs, ShadowSettings};
+
+use crate::casters::CasterInput;
+
+/// What a [`Shadows`] object is made for.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowOptions {
+    /// Technique, map size, bias. Default: the preset `medium`.
+    pub settings: ShadowSettings,
+    /// What the caller wants of a frame. Default: maps for the visibility function.
+    pub outputs: Outputs,
+    /// Format of the target of [`Shadows::encode_visibility`]. Default: `R8Unorm`.
+    pub visibility_format: wgpu::TextureFormat,
+}
+
+impl Default for ShadowOptions {
+    fn default() -> Self {
+        Self {
+            settings: ShadowSettings::default(),
+            outputs: Outputs::default(),
+            visibility_format: wgpu::TextureFormat::R8Unorm,
+        }
+    }
+}
+
+/// What a frame is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameInput<'a> {
+    /// The light.
+    pub light: &'a Light,
+    /// The casters, in an order that the caller keeps as long as they stay.
+    pub casters: &'a [CasterInput<'a>],
+}
+
+/// The maps of the light's view.
+#[derive(Clone, Copy, Debug)]
+pub struct Maps<'a> {
+    /// Linear depth of the nearest caster, `R32Float`; the view's farthest depth where there is none.
+    pub shadow_depth: Option<&'a wgpu::Texture>,
+    /// Nearest smoothie depth in clip z, `Depth32Float`; where the buffer is in two textures.
+    pub smoothie_depth: Option<&'a wgpu::Texture>,
+    /// Least smoothie alpha, `R16Float`; where the buffer is in two textures.
+    pub smoothie_alpha: Option<&'a wgpu::Texture>,
+    /// Nearest linear smoothie depth and least alpha, `Rg32Float`; where the buffer is in one texture.
+    pub smoothie_buffer: Option<&'a wgpu::Texture>,
+}
+
+/// What is known about the frames so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameStats {
+    /// Bytes that the last [`prepare`](Shadows::prepare) uploaded for the frame: light and instance records.
+    pub upload_bytes: u64,
+    /// Bytes that it uploaded once because meshes or casters came or went.
+    pub set_up_bytes: u64,
+    /// Frames whose quads or corners did not fit, as far as their counters have arrived.
+    pub overflow_frames: u64,
+    /// Times that the library waited for the device: only [`wait_for_counters`](Shadows::wait_for_counters) does.
+    pub readback_waits: u64,
+    /// Casters of the last frame whose matrix is singular: they cast nothing.
+    pub singular_casters: u32,
+    /// Casters of the last frame whose clip space `f32` can't hold: they have a silhouette and throw no shadow.
+    pub imageless_casters: u32,
+    /// Whether the last frame was like the one before, so that its maps stand and no pass was recorded.
+    pub is_unchanged: bool,
+    /// Counters of the latest frame that has arrived.
+    pub counters: Option<Counters>,
+}
+
+/// What the frame plan needs to know of a device.
+pub fn device_facts(device: &wgpu::Device) -> DeviceFacts {
+    let limits = device.limits();
+    DeviceFacts {
+        float32_blendable: device.features().contains(wgpu::Features::FLOAT32_BLENDABLE),
+        max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
+        max_buffer_size: limits.max_buffer_size,
+        max_texture_dimension_2d: limits.max_texture_dimension_2d,
+    }
+}
