@@ -14,7 +14,7 @@ pub(crate) use wgsl;
 /// One shader module.
 #[derive(Clone, Copy, Debug)]
 pub struct ShaderModule {
-    /// Path of its own file below `shaders/`, without the ending; a variant adds `+` and what it is joined with.
+    /// The stem of its own file; a variant adds `+` and what it is joined with.
     pub name: &'static str,
     /// Its whole text.
     pub wgsl: &'static str,

@@ -66,3 +66,8 @@ pub mod prelude {
     pub use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
     pub use contrejour_plan::{DepthBias, Light, LightKind, Outputs, ShadowSettings, SmoothieWidth, Technique};
 }
+
+/// The README's snippet, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
