@@ -5,6 +5,7 @@ pub mod compare;
 pub mod frame;
 pub mod gpu;
 pub mod harness;
+pub mod hostile;
 pub mod image_compare;
 pub mod lights;
 pub mod meshes;

@@ -1,0 +1,236 @@
+//! Meshes whose faces are hard for the facing test, each with the light that they are hard for.
+
+use contrejour_plan::{Light, LightKind};
+use glam::{DMat4, DVec3, Vec3};
+
+use crate::random::Random;
+
+/// Separate faces, under one light.
+#[derive(Clone, Debug)]
+pub struct HostileCaster {
+    /// What is hard about it.
+    pub kind: Hardness,
+    /// Three positions a face.
+    pub faces: Vec<[[f32; 3]; 3]>,
+    /// The homogeneous light in the faces' space.
+    pub light_object: [f32; 4],
+    /// Whether it stands mirrored in the world.
+    pub mirrored: bool,
+}
+
+/// What is hard about faces and light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hardness {
+    /// Any finite bits.
+    AnyBits,
+    /// Ordinary numbers: the light lies in, or a rounding beside, the planes of most faces.
+    Coplanar,
+    /// Small whole numbers, whose determinants are often exactly zero.
+    SmallIntegers,
+    /// Slivers that the light all but grazes.
+    Grazing,
+    /// Numbers around the smallest normal one.
+    Subnormal,
+    /// Faces in the planes of axes, a light along axes.
+    AxisAligned,
+    /// Faces without area, and faces that touch the light or point at it.
+    Degenerate,
+    /// The largest and the smallest numbers, ones, and zeros.
+    Extreme,
+    /// Biased exponents in these ranges, ends included.
+    Exponents {
+        /// Of the light.
+        light: [u32; 2],
+        /// Of the faces.
+        faces: [u32; 2],
+    },
+}
+
+impl Hardness {
+    /// All kinds; the ranges of exponents lie around those where the tiers of the facing test change.
+    pub const ALL: [Self; 14] = [
+        Self::AnyBits,
+        Self::Coplanar,
+        Self::SmallIntegers,
+        Self::Grazing,
+        Self::Subnormal,
+        Self::AxisAligned,
+        Self::Degenerate,
+        Self::Extreme,
+        Self::Exponents { light: [127, 140], faces: [90, 130] },
+        Self::Exponents { light: [1, 254], faces: [0, 254] },
+        Self::Exponents { light: [100, 112], faces: [100, 112] },
+        Self::Exponents { light: [160, 170], faces: [160, 170] },
+        Self::Exponents { light: [80, 90], faces: [80, 90] },
+        Self::Exponents { light: [60, 100], faces: [60, 100] },
+    ];
+}
+
+impl HostileCaster {
+    /// Random faces around a random light. The same in every run.
+    pub fn new(kind: Hardness, is_point: bool, mirrored: bool, face_count: usize) -> Self {
+        // A sequence of its own for each kind, whose name is as good as a number.
+        let name = format!("{kind:?}{is_point}{mirrored}");
+        let mut random = Random::new(name.bytes().fold(0, |hash, byte| 31 * hash % (1 << 40) + u64::from(byte)));
+        let light = loop {
+            let light = light_of(kind, &mut random);
+            if is_point || light != [0.0; 3] {
+                break light;
+            }
+        };
+        let faces = (0..face_count).map(|_| face(&mut random, kind, light, is_point)).collect();
+        let [x, y, z] = light;
+        Self { kind, faces, light_object: [x, y, z, if is_point { 1.0 } else { 0.0 }], mirrored }
+    }
+
+    /// World space from the faces' space.
+    pub fn world_from_object(&self) -> DMat4 {
+        DMat4::from_scale(DVec3::new(if self.mirrored { -1.0 } else { 1.0 }, 1.0, 1.0))
+    }
+
+    /// The light in the world; mirroring loses no bits.
+    pub fn light(&self) -> Light {
+        let [x, y, z, w] = self.light_object;
+        let light_world = self.world_from_object().transform_vector3(Vec3::new(x, y, z).as_dvec3());
+        let kind = if w == 1.0 {
+            // Along x, so that there is a view even from the farthest point.
+            let target = DVec3 { x: if light_world.x == 0.0 { 1.0 } else { 0.0 }, ..light_world };
+            LightKind::Spot { position: light_world, target, cone_angle: 2.5, radius: 0.0, near: 1.0, far: 1e30 }
+        } else {
+            LightKind::Directional {
+                towards_light: light_world,
+                center: DVec3::ZERO,
+                half_extent: 1.0,
+                half_depth: 1.0,
+                angular_radius: 0.0,
+            }
+        };
+        Light { kind, color: [1.0; 3] }
+    }
+}
+
+fn light_of(kind: Hardness, random: &mut Random) -> [f32; 3] {
+    match kind {
+        Hardness::AxisAligned => {
+            let axis = random.below(3);
+            let mut light = [0.0; 3];
+            light[axis] = random.signed() as f32;
+            if random.below(2) == 0 {
+                light[(axis + 1) % 3] = random.signed() as f32;
+            }
+            light
+        }
+        Hardness::Exponents { light, .. } => [(); 3].map(|()| with_exponent(random, light)),
+        Hardness::Coplanar | Hardness::Grazing | Hardness::Degenerate => [(); 3].map(|()| 4.0 * random.signed() as f32),
+        _ => [(); 3].map(|()| coordinate(random, kind)),
+    }
+}
+
+fn coordinate(random: &mut Random, kind: Hardness) -> f32 {
+    match kind {
+        Hardness::AnyBits => random.any_finite(),
+        Hardness::SmallIntegers => random.below(17) as f32 - 8.0,
+        Hardness::Subnormal => f32::from_bits(random.word() & 0x81ff_ffff),
+        Hardness::Extreme => extreme(random),
+        Hardness::Exponents { faces, .. } => with_exponent(random, faces),
+        _ => random.signed() as f32,
+    }
+}
+
+/// A random sign and mantissa; the mantissa is often short.
+fn with_exponent(random: &mut Random, [low, high]: [u32; 2]) -> f32 {
+    let exponent = low + random.below((high - low + 1) as usize) as u32;
+    let cut = random.below(24);
+    let mantissa = (random.word() & 0x7f_ffff) >> cut << cut;
+    f32::from_bits((random.word() & 1) << 31 | exponent << 23 | mantissa)
+}
+
+fn extreme(random: &mut Random) -> f32 {
+    let size = match random.below(10) {
+        0 | 1 => 0.0,
+        2 => f32::from_bits(1),
+        3 => f32::MAX,
+        4 => 1.0,
+        5 => f32::MIN_POSITIVE,
+        6 => random.any_finite(),
+        7 => 1.0 + f32::EPSILON,
+        8 => f32::MAX / 3.0,
+        _ => f32::from_bits(random.word() & 0xff),
+    };
+    if random.below(2) == 0 { size } else { -size }
+}
+
+fn face(random: &mut Random, kind: Hardness, light: [f32; 3], is_point: bool) -> [[f32; 3]; 3] {
+    let [a, mut b, mut c] = [(); 3].map(|()| [(); 3].map(|()| coordinate(random, kind)));
+    if kind == Hardness::AnyBits {
+        return [a, b, c];
+    }
+    let to_light = if is_point { minus(light, a) } else { light };
+    let edge = minus(b, a);
+    let choice = random.below(8);
+    match (kind, choice) {
+        (Hardness::AxisAligned, 0..=5) => {
+            let axis = random.below(3);
+            (b[axis], c[axis]) = (a[axis], a[axis]);
+            if choice > 3 {
+                b[(axis + 1) % 3] = a[(axis + 1) % 3];
+            }
+        }
+        (Hardness::Degenerate, 0) if is_point => c = light,
+        (Hardness::Degenerate, 1) if is_point => return [light, b, c],
+        (Hardness::Degenerate, 2) => c = at(a, edge, 0.5, edge, 0.0),
+        (Hardness::Degenerate, 3) => c = at(a, edge, 2.0, edge, 0.0),
+        (Hardness::Degenerate, 4) => c = at(a, to_light, 0.5, edge, 0.0),
+        (Hardness::Degenerate, 5) => {
+            (b, c) = (at(a, to_light, 3.0, edge, 0.0), at(a, to_light, -1.0, edge, 0.0));
+        }
+        (Hardness::Degenerate, 6) => c = b,
+        (_, 0) => {}
+        (_, 1) => c = at(a, edge, 0.5, to_light, 0.25),
+        (_, 2) => {
+            let share = random.signed();
+            c = at(a, edge, share, to_light, share / 2.0);
+        }
+        (_, 3) => {
+            let [along, towards] = [(); 2].map(|()| random.below(5) as f64 - 2.0);
+            c = at(a, edge, along, to_light, towards);
+        }
+        (_, 4) => {
+            let axis = random.below(3);
+            (b[axis], c[axis]) = (a[axis], a[axis]);
+        }
+        (Hardness::Grazing, _) => {
+            let small = (-(random.below(24) as f64)).exp2();
+            c = at(a, edge, small * random.signed(), to_light, small * random.signed());
+            b = at(a, edge, small, edge, 0.0);
+        }
+        _ => c = at(a, edge, random.signed(), to_light, random.signed()),
+    }
+    if random.below(3) == 0 {
+        c = c.map(|coordinate| nudged(random, coordinate));
+    }
+    if random.below(6) == 0 {
+        let axis = random.below(3);
+        b[axis] = nudged(random, b[axis]);
+    }
+    [a, b, c]
+}
+
+fn minus(p: [f32; 3], q: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|axis| p[axis] - q[axis])
+}
+
+/// `origin + s p + t q`, rounded once an axis; the origin's coordinate where that has no place in 32 bits.
+fn at(origin: [f32; 3], p: [f32; 3], s: f64, q: [f32; 3], t: f64) -> [f32; 3] {
+    std::array::from_fn(|axis| {
+        let place = (f64::from(origin[axis]) + s * f64::from(p[axis]) + t * f64::from(q[axis])) as f32;
+        if place.is_finite() { place } else { origin[axis] }
+    })
+}
+
+/// One of the three floats on either side, or the same.
+fn nudged(random: &mut Random, float: f32) -> f32 {
+    let steps = random.below(7) as i32 - 3;
+    let nudged = f32::from_bits(float.to_bits().wrapping_add_signed(steps));
+    if nudged.is_finite() { nudged } else { float }
+}
