@@ -2,22 +2,28 @@
 
 mod closed;
 mod exact;
+mod facing;
 mod left_out;
 mod no_gaps;
 mod nothing_lost;
 mod nothing_per_edge;
+mod repeatable;
 mod silhouettes;
+mod smoothie_ways;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let trials = [
         exact::trials(),
+        facing::trials(),
         closed::trials(),
         silhouettes::trials(),
+        repeatable::trials(),
         nothing_lost::trials(),
         nothing_per_edge::trials(),
         no_gaps::trials(),
+        smoothie_ways::trials(),
         left_out::trials(),
     ];
     contrejour_tests::harness::run(trials.into_iter().flatten().collect())

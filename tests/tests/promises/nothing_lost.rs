@@ -58,7 +58,7 @@ fn tetrahedra(count: u32) -> TestMesh {
 }
 
 fn full_lists_are_counted_and_grow(gpu: &Gpu) -> Outcome {
-    let mesh = tetrahedra(1000);
+    let mesh = tetrahedra(2000);
     let (middle, radius) = mesh.middle_and_radius();
     let light = point(middle + radius * DVec3::new(1.0, 2.0, 1.5), middle, radius);
     let mut pipeline = Pipeline::new(gpu, &mesh, &ShadowOptions::default())?;
