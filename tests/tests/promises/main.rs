@@ -7,6 +7,7 @@ mod left_out;
 mod no_gaps;
 mod nothing_lost;
 mod nothing_per_edge;
+mod pictures;
 mod repeatable;
 mod silhouettes;
 mod smoothie_ways;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
         no_gaps::trials(),
         smoothie_ways::trials(),
         left_out::trials(),
+        pictures::trials(),
     ];
     contrejour_tests::harness::run(trials.into_iter().flatten().collect())
 }
