@@ -1,6 +1,6 @@
 //! Draws a scene frame by frame, as a program of a user's would.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use contrejour_gpu::{
@@ -41,7 +41,6 @@ pub struct Renderer {
     lit_pipeline: wgpu::RenderPipeline,
     timer: StageTimer,
     counter_log: CounterLog,
-    submissions: VecDeque<wgpu::SubmissionIndex>,
     frames: Vec<FrameCost>,
     /// Waits of [`Renderer::draw_complete`], which are no waits of the pipeline's own.
     waits_asked_for: u64,
@@ -61,10 +60,6 @@ pub(crate) struct FrameCost {
     pub cpu_ms: f64,
     pub upload_bytes: u64,
 }
-
-/// Frames that may be under way on the device: the CPU records one while the device works on another. With more, buffers
-/// that are too small would be found out later.
-const MAX_FRAMES_IN_FLIGHT: usize = 2;
 
 impl Renderer {
     /// Uploads a scene.
@@ -94,7 +89,6 @@ impl Renderer {
             uniforms: FrameUniforms::new(scene, &local.camera(&scene.camera)),
             background: wgpu::Color { r: red, g: green, b: blue, a: 1.0 },
             counter_log: CounterLog::default(),
-            submissions: VecDeque::new(),
             frames: Vec::new(),
             waits_asked_for: 0,
             light_local,
@@ -110,7 +104,7 @@ impl Renderer {
         })
     }
 
-    /// Draws one frame; waits only where too many frames are under way.
+    /// Draws one frame and paces: returns when the device is done with it.
     ///
     /// # Errors
     ///
@@ -143,7 +137,9 @@ impl Renderer {
         let upload_bytes = uniform_bytes + self.shadows.stats().upload_bytes;
         self.frames.push(FrameCost { cpu_ms, upload_bytes });
         self.timer.collect();
-        self.limit_frames_in_flight(submission)?;
+        // Paced frame by frame: a software device computes on the cores that the next frame is to be recorded on, and
+        // would be measured with it.
+        self.gpu.device.poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None })?;
         self.gpu.check()?;
         Ok(())
     }
@@ -194,16 +190,6 @@ impl Renderer {
 
     pub(crate) fn encoder(&self) -> wgpu::CommandEncoder {
         self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
-    }
-
-    fn limit_frames_in_flight(&mut self, submission: wgpu::SubmissionIndex) -> Result<(), wgpu::PollError> {
-        self.submissions.push_back(submission);
-        self.gpu.device.poll(wgpu::PollType::Poll)?;
-        while self.submissions.len() > MAX_FRAMES_IN_FLIGHT {
-            let submission_index = self.submissions.pop_front();
-            self.gpu.device.poll(wgpu::PollType::Wait { submission_index, timeout: None })?;
-        }
-        Ok(())
     }
 }
 
