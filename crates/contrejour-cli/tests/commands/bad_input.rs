@@ -1,0 +1,69 @@
+//! What cannot be done: status 2, one line that says where and what, and no file.
+
+use std::fs;
+
+use libtest_mimic::Trial;
+
+use crate::program::Folder;
+use crate::{Outcome, cpu_trial};
+
+const SCENE: &str = "size = [48, 32]\n[camera]\neye = [3, 2, 5]\ntarget = [0, 0, 0]\n\
+                     [light]\nkind = \"spot\"\nposition = [0, 4, 0]\ntarget = [0, 0, 0]\nglow = 3\n\
+                     [[mesh]]\nshape = { kind = \"box\" }\n";
+
+const FILES: [(&str, &str); 7] = [
+    ("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+    ("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+    ("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n"),
+    ("empty.obj", ""),
+    ("mesh.xyz", "0 0 0\n"),
+    ("key.toml", SCENE),
+    ("text.toml", "size = [48, 32\n"),
+];
+
+/// Arguments, and what the line must tell.
+const CASES: [(&str, &[&str]); 24] = [
+    ("silhouette missing.obj --point 1,2,3 -o out.json", &["missing.obj"]),
+    ("silhouette folder.obj --point 1,2,3 -o out.json", &["folder.obj", "directory"]),
+    ("silhouette range.obj --point 1,2,3 -o out.json", &["range.obj", "line 4", "9"]),
+    ("silhouette nan.obj --point 1,2,3 -o out.json", &["nan.obj", "line 2"]),
+    ("silhouette empty.obj --point 1,2,3 -o out.json", &["empty.obj"]),
+    ("silhouette mesh.xyz --point 1,2,3 -o out.json", &["mesh.xyz", ".obj"]),
+    ("silhouette face.obj --point nan,0,0 -o out.json", &["--point", "nan"]),
+    ("silhouette face.obj --point 1,2 -o out.json", &["--point", "three"]),
+    ("silhouette face.obj --point 1e39,0,0 -o out.json", &["--point", "1e39"]),
+    ("silhouette face.obj --direction 0,0,0 -o out.json", &["direction", "zero"]),
+    ("silhouette face.obj --direction=-0,0,0 -o out.json", &["direction", "zero"]),
+    ("silhouette face.obj -o out.json", &["--point", "--direction"]),
+    ("silhouette face.obj --point 1,2,3 --direction 1,2,3 -o out.json", &["--direction"]),
+    ("silhouette face.obj --point 1,2,3 --format png -o out.json", &["--format", "svg"]),
+    ("render --technique magic -o out.png", &["magic", "smoothies", "shadow-map"]),
+    ("render nothing -o out.png", &["nothing", "boxes"]),
+    ("render missing.toml -o out.png", &["missing.toml"]),
+    ("render key.toml -o out.png", &["key.toml:9", "glow"]),
+    ("render text.toml -o out.png", &["text.toml:1"]),
+    ("render boxes --orbit 3 -o out.png", &["out.png", "%03d"]),
+    ("render boxes -o out.jpg", &["out.jpg", ".png"]),
+    ("render boxes --technique shadow-map --width 0.1 -o out.png", &["--width"]),
+    ("inspect missing.obj", &["missing.obj"]),
+    ("plan missing.toml", &["missing.toml"]),
+];
+
+pub fn trials() -> Vec<Trial> {
+    let trial = |(arguments, told): (&'static str, &'static [&'static str])| {
+        cpu_trial(format!("bad_input::{arguments}"), move || is_refused(arguments, told))
+    };
+    CASES.into_iter().map(trial).collect()
+}
+
+fn is_refused(arguments: &str, told: &[&str]) -> Outcome {
+    let folder = Folder::with(&FILES);
+    fs::create_dir(folder.path("folder.obj")).map_err(|error| error.to_string())?;
+    let before = folder.names();
+    let line = folder.run(arguments).refusal()?;
+    if let Some(word) = told.iter().find(|word| !line.contains(*word)) {
+        return Err(format!("{word:?} is not told: {line}"));
+    }
+    let after = folder.names();
+    if before == after { Ok(()) } else { Err(format!("files were left: {after:?}")) }
+}

@@ -1,0 +1,114 @@
+//! Runs of the binary, each in a folder of its own.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+/// What drivers print on standard error by themselves.
+const DRIVER_LINES: [&str; 4] = ["error: XDG_RUNTIME_DIR", "MESA", "WARNING: lavapipe", "libEGL"];
+
+/// A folder in which the binary runs.
+pub struct Folder {
+    folder: TempDir,
+}
+
+/// What a run left.
+pub struct Run {
+    command: String,
+    output: Output,
+}
+
+impl Folder {
+    pub fn new() -> Self {
+        Self { folder: tempfile::tempdir().expect("a temporary folder can be made") }
+    }
+
+    /// A folder with text files in it.
+    pub fn with(files: &[(&str, &str)]) -> Self {
+        let folder = Self::new();
+        for (name, text) in files {
+            fs::write(folder.path(name), text).expect("a temporary file can be written");
+        }
+        folder
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Names of all files in it, sorted.
+    pub fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.folder.path()).expect("the folder can be read");
+        let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("the folder can be read").file_name();
+        let mut names: Vec<_> = entries.map(|entry| name(entry).to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    pub fn read(&self, name: &str) -> Result<String, String> {
+        fs::read_to_string(self.path(name)).map_err(|error| format!("{name}: {error}"))
+    }
+
+    /// Width and height of a picture, from its header.
+    pub fn png_size(&self, name: &str) -> Result<[u32; 2], String> {
+        let bytes = fs::read(self.path(name)).map_err(|error| format!("{name}: {error}"))?;
+        if bytes.len() < 24 || !bytes.starts_with(b"\x89PNG\r\n\x1a\n") || &bytes[12..16] != b"IHDR" {
+            return Err(format!("{name} is no PNG"));
+        }
+        let number = |at: usize| u32::from_be_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
+        Ok([number(16), number(20)])
+    }
+
+    /// Runs the binary with arguments that spaces separate.
+    pub fn run(&self, arguments: &str) -> Run {
+        let output = Command::new(env!("CARGO_BIN_EXE_contrejour"))
+            .args(arguments.split_whitespace())
+            .current_dir(self.folder.path())
+            .output()
+            .expect("the binary runs");
+        Run { command: format!("contrejour {arguments}"), output }
+    }
+}
+
+impl Run {
+    /// Standard output of a run that ended well.
+    pub fn stdout(&self) -> Result<String, String> {
+        if self.output.status.code() != Some(0) {
+            return Err(self.wrong("it should end with 0"));
+        }
+        String::from_utf8(self.output.stdout.clone()).map_err(|_| self.wrong("what it prints should be text"))
+    }
+
+    /// The same as JSON.
+    pub fn json(&self) -> Result<serde_json::Value, String> {
+        serde_json::from_str(&self.stdout()?).map_err(|error| self.wrong(&format!("it should print JSON: {error}")))
+    }
+
+    /// The one line on standard error of a run that ended with 2 and printed nothing else.
+    pub fn refusal(&self) -> Result<String, String> {
+        if self.output.status.code() != Some(2) {
+            return Err(self.wrong("it should end with 2"));
+        }
+        if !self.output.stdout.is_empty() {
+            return Err(self.wrong("it should print nothing on standard output"));
+        }
+        let text = String::from_utf8_lossy(&self.output.stderr).into_owned();
+        let is_ours = |line: &&str| !DRIVER_LINES.iter().any(|driver| line.starts_with(driver));
+        match text.lines().filter(is_ours).collect::<Vec<_>>()[..] {
+            [line] if line.starts_with("contrejour: ") => Ok(line.to_owned()),
+            _ => Err(self.wrong("it should print one line on standard error")),
+        }
+    }
+
+    fn wrong(&self, what: &str) -> String {
+        let [out, err] = [&self.output.stdout, &self.output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+        format!("{}: {what}; {}\n{out}\n{err}", self.command, self.output.status)
+    }
+}
+
+/// A file that comes with the project.
+pub fn asset(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(path)
+}

@@ -1,0 +1,123 @@
+//! `contrejour render`.
+
+use std::collections::BTreeSet;
+
+use libtest_mimic::Trial;
+use serde_json::Value;
+
+use crate::program::Folder;
+use crate::{Outcome, gpu_trial};
+
+const SMALL: &str = "render boxes --size 64x40 --map-size 128";
+
+/// What scripts may rely on.
+const KEYS: [&str; 11] = [
+    "device",
+    "frames",
+    "edges",
+    "silhouette_edges",
+    "stages",
+    "upload_bytes_per_frame",
+    "readback_waits",
+    "cpu_ms_per_frame",
+    "overflow_frames",
+    "pictures",
+    "views",
+];
+
+pub fn trials() -> Vec<Trial> {
+    vec![
+        gpu_trial("render::a_picture_has_the_size_asked_for", a_picture_has_the_size_asked_for),
+        gpu_trial("render::an_orbit_is_a_picture_a_frame", an_orbit_is_a_picture_a_frame),
+        gpu_trial("render::the_object_has_its_keys", the_object_has_its_keys),
+        gpu_trial("render::views_are_pictures", views_are_pictures),
+        gpu_trial("render::a_scene_file_is_drawn", a_scene_file_is_drawn),
+    ]
+}
+
+fn expect_size(folder: &Folder, name: &str, expected: [u32; 2]) -> Outcome {
+    let size = folder.png_size(name)?;
+    if size == expected { Ok(()) } else { Err(format!("{name} is {size:?}, not {expected:?}")) }
+}
+
+fn expect_names(folder: &Folder, expected: &[&str]) -> Outcome {
+    let names = folder.names();
+    if names == expected { Ok(()) } else { Err(format!("the folder holds {names:?}, not {expected:?}")) }
+}
+
+fn a_picture_has_the_size_asked_for() -> Outcome {
+    let folder = Folder::new();
+    let printed = folder.run(&format!("{SMALL} -o picture.png")).stdout()?;
+    if printed.lines().last() != Some("picture.png") {
+        return Err(format!("the last line is not the picture: {printed}"));
+    }
+    expect_size(&folder, "picture.png", [64, 40])?;
+    expect_names(&folder, &["picture.png"])
+}
+
+fn an_orbit_is_a_picture_a_frame() -> Outcome {
+    let folder = Folder::new();
+    folder.run(&format!("{SMALL} --orbit 3 -o frame-%03d.png")).stdout()?;
+    let names = ["frame-000.png", "frame-001.png", "frame-002.png"];
+    expect_names(&folder, &names)?;
+    for name in names {
+        expect_size(&folder, name, [64, 40])?;
+    }
+    let bytes: BTreeSet<_> = names.iter().map(|name| std::fs::read(folder.path(name)).unwrap_or_default()).collect();
+    if bytes.len() == names.len() { Ok(()) } else { Err("the light does not move".into()) }
+}
+
+fn the_object_has_its_keys() -> Outcome {
+    let folder = Folder::new();
+    let report = folder.run(&format!("{SMALL} --orbit 4 --json")).json()?;
+    let keys: BTreeSet<_> = report.as_object().ok_or("it is an object")?.keys().map(String::as_str).collect();
+    if keys != BTreeSet::from(KEYS) {
+        return Err(format!("the keys are {keys:?}"));
+    }
+    let stages = report["stages"].as_array().ok_or("`stages` is a list")?;
+    let is_stage =
+        |stage: &Value| stage["name"].is_string() && stage["gpu_ms"].as_f64().is_some_and(|time| time >= 0.0);
+    let spread = ["min", "median", "max"].map(|key| report["silhouette_edges"][key].as_u64());
+    let is_good = report["device"].is_string()
+        && report["frames"] == 4
+        && report["edges"].as_u64().is_some_and(|edges| edges > 0)
+        && spread.iter().all(|edges| edges.is_some_and(|edges| edges > 0))
+        && spread.is_sorted()
+        && stages.iter().all(is_stage)
+        && report["readback_waits"] == 0
+        && report["upload_bytes_per_frame"].as_u64().is_some_and(|bytes| bytes > 0)
+        && report["cpu_ms_per_frame"].as_f64().is_some_and(|time| time > 0.0)
+        && report["overflow_frames"].is_u64();
+    if !is_good {
+        return Err(format!("not what is documented: {report}"));
+    }
+    // Nothing was named, so nothing is written.
+    expect_names(&folder, &[])
+}
+
+fn views_are_pictures() -> Outcome {
+    let folder = Folder::new();
+    let report = folder.run(&format!("{SMALL} -o picture.png --views maps --json")).json()?;
+    for (name, size) in [
+        ("shadow_map", [128, 128]),
+        ("smoothie_depth", [128, 128]),
+        ("smoothie_alpha", [128, 128]),
+        ("visibility", [64, 40]),
+        ("silhouette", [64, 40]),
+    ] {
+        expect_size(&folder, &format!("maps/{name}.png"), size)?;
+    }
+    if report["views"].as_array().is_some_and(|views| views.len() == 5) { Ok(()) } else { Err(report.to_string()) }
+}
+
+fn a_scene_file_is_drawn() -> Outcome {
+    let scene = "size = [48, 32]\n[camera]\neye = [3, 2, 5]\ntarget = [0, 0, 0]\n\
+                 [light]\nkind = \"directional\"\ntowards_light = [1, 2, 1]\n\
+                 [[mesh]]\nshape = { kind = \"box\" }\n[[mesh]]\nfile = \"face.obj\"\n";
+    let face = "v -2 -1 -2\nv -2 -1 2\nv 2 -1 2\nf 1 2 3\n";
+    let folder = Folder::with(&[("scene.toml", scene), ("face.obj", face)]);
+    folder.run("render scene.toml -o picture.png").stdout()?;
+    expect_size(&folder, "picture.png", [48, 32])?;
+    folder.run("render face.obj --size 32x32 -o face.png").stdout()?;
+    expect_size(&folder, "face.png", [32, 32])
+}
