@@ -13,7 +13,7 @@ struct ContrejourLookup {
 }
 
 // The steepest slope that the slope-scaled bias follows; beyond, a surface is lit too flatly to matter.
-const CONTREJOUR_MAX_SLOPE = 8.0;
+const CONTREJOUR_MAX_SLOPE = 64.0;
 
 fn contrejour_lookup(position_world: vec3f, normal_world: vec3f) -> ContrejourLookup {
     // Move along the normal, then take the constant and the slope-scaled bias off the depth.

@@ -65,8 +65,8 @@ pub struct OracleTopology {
     faces: Vec<[u32; 3]>,
     /// For each edge its faces, and whether each runs from the lower to the higher vertex.
     edges: BTreeMap<(u32, u32), Vec<(usize, bool)>>,
-    /// Whose sign each face without area takes, and whether negated; `None`: it is unlit.
-    partners: BTreeMap<usize, Option<(usize, bool)>>,
+    /// Whose sign each face without area takes (`None`: that of an unlit face), and whether negated.
+    partners: BTreeMap<usize, (Option<usize>, bool)>,
 }
 
 impl OracleTopology {
@@ -98,8 +98,7 @@ impl OracleTopology {
         let own_lit = self.lit_faces(light, mirrored);
         let is_lit = |face: usize| match self.partners.get(&face) {
             None => own_lit[face],
-            Some(None) => false,
-            Some(&Some((other, negated))) => own_lit[other] != negated,
+            Some(&(other, negated)) => other.is_some_and(|other| own_lit[other]) != negated,
         };
         let mut silhouette = Vec::new();
         for (&(low, high), faces) in &self.edges {
@@ -132,20 +131,23 @@ impl OracleTopology {
         self.faces[face].map(|vertex| self.positions[vertex as usize])
     }
 
-    /// Follows the chain of faces without area across their longest edges.
-    fn partner(&self, face: usize) -> Option<(usize, bool)> {
+    /// Follows the chain of faces without area across their longest edges. A face without a single one across is unlit;
+    /// so are those of a chain that comes back to itself.
+    fn partner(&self, face: usize) -> (Option<usize>, bool) {
         let mut visited = BTreeSet::new();
         let mut current = face;
         let mut negated = false;
         while self.is_without_area(current) {
             if !visited.insert(current) {
-                return None;
+                return (None, false);
             }
-            let (across, is_negated) = self.across_longest_edge(current)?;
+            let Some((across, is_negated)) = self.across_longest_edge(current) else {
+                return (None, negated);
+            };
             current = across;
             negated ^= is_negated;
         }
-        Some((current, negated))
+        (Some(current), negated)
     }
 
     /// The one face across the longest edge of a face without area, and whether the edge is no silhouette when their

@@ -27,5 +27,5 @@ pub fn write_or_print(text: &str, path: Option<&Path>) -> Result<(), Failure> {
 
 /// Tells something that does not end the program.
 pub fn warn(text: &str) {
-    eprintln!("contrejour: note: {}", text.split_whitespace().collect::<Vec<_>>().join(" "));
+    eprintln!("note: {}", text.split_whitespace().collect::<Vec<_>>().join(" "));
 }

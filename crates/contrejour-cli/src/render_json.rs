@@ -9,6 +9,7 @@ use crate::render::Written;
 struct Report<'a> {
     device: &'a str,
     frames: usize,
+    frames_in_flight: usize,
     edges: u64,
     silhouette_edges: SilhouetteEdges,
     stages: Vec<Stage<'a>>,
@@ -45,6 +46,7 @@ pub fn json(measured: &Measurements, written: &Written) -> Result<String, serde_
     serde_json::to_string_pretty(&Report {
         device: &measured.device,
         frames: measured.frames,
+        frames_in_flight: measured.frames_in_flight,
         edges: measured.edges,
         silhouette_edges: SilhouetteEdges { min: edges.min, median: edges.median, max: edges.max },
         stages: measured.stages.iter().map(|stage| Stage { name: &stage.name, gpu_ms: stage.gpu_ms }).collect(),
@@ -90,6 +92,7 @@ mod tests {
         Measurements {
             device: "a device".into(),
             frames: 120,
+            frames_in_flight: 2,
             edges: 18,
             silhouette_edges: Spread { min: 6, median: 7, max: 8 },
             stages: vec![StageCost { name: "classify_faces".into(), gpu_ms: 0.25 }],

@@ -277,13 +277,16 @@ fn chains_of_faces_without_area_are_followed_to_their_end() {
     );
     assert_eq!(words(&mesh, 0, 2), [incidence(0, true), incidence(3, false)]);
 
-    // Without face 0 both are unlit, whatever the light.
+    // Without face 0 the first is unlit, whatever the light; the second is wound against it, and takes the opposite.
     let mesh = build(&positions, &[[0, 4, 1], [4, 2, 0], [0, 3, 2]]);
-    assert!(mesh.partners.iter().all(|partner| partner.of.is_none()));
-    assert_eq!(mesh.report.unlit_faces, found(&[0, 1]));
+    assert_eq!(
+        mesh.partners,
+        [Partner { face: 0, of: None, negated: false }, Partner { face: 1, of: None, negated: true }]
+    );
+    assert_eq!(mesh.report.unlit_faces, found(&[0]));
     assert_eq!(words(&mesh, 0, 1), [incidence(UNLIT_FACE, false)]);
-    // Both run from 0 to 4.
-    assert_eq!(words(&mesh, 0, 4), [incidence(UNLIT_FACE, true); 2]);
+    // Both run from 0 to 4: no silhouette.
+    assert_eq!(words(&mesh, 0, 4), [incidence(UNLIT_FACE, true), incidence(UNLIT_FACE, false)]);
 }
 
 #[test]

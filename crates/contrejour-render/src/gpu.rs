@@ -102,6 +102,12 @@ impl Gpu {
         }
     }
 
+    /// Frames that may be under way while the next one is recorded. None on a software device: it computes on the cores
+    /// that frames are recorded on, and would be measured with the CPU.
+    pub fn frames_in_flight(&self) -> usize {
+        if self.adapter_info.device_type == wgpu::DeviceType::Cpu { 0 } else { 2 }
+    }
+
     /// What the frame plan needs to know of the device.
     pub fn facts(&self) -> DeviceFacts {
         contrejour_gpu::device_facts(&self.device)

@@ -16,6 +16,9 @@ pub struct Measurements {
     pub device: String,
     /// Frames that were drawn, repetitions included.
     pub frames: usize,
+    /// Frames that could be under way while the next one was recorded: pacing waits for the others, and is no wait of
+    /// the pipeline's.
+    pub frames_in_flight: usize,
     /// Edges of all meshes that cast.
     pub edges: u64,
     /// Fewest, median and most silhouette edges of a frame; zeros where no frame looked for silhouettes.
@@ -55,6 +58,7 @@ pub struct StageCost {
 impl Measurements {
     pub(crate) fn new(
         device: String,
+        frames_in_flight: usize,
         edges: u64,
         frames: &[FrameCost],
         counters: &[Counters],
@@ -67,6 +71,7 @@ impl Measurements {
         Self {
             device,
             frames: frames.len(),
+            frames_in_flight,
             edges,
             silhouette_edges: Spread::of(counters.iter().map(|frame| frame.silhouette_edges)),
             stages: stages.iter().map(stage_cost).collect(),
@@ -172,10 +177,10 @@ mod tests {
     #[test]
     fn the_first_frame_uploads_the_scene_and_does_not_count() {
         let frames = [FrameCost { cpu_ms: 90.0, upload_bytes: 1_000_000 }, FrameCost { cpu_ms: 1.0, upload_bytes: 10 }];
-        let measured = Measurements::new(String::new(), 0, &frames, &[], &[], &FrameStats::default());
+        let measured = Measurements::new(String::new(), 2, 0, &frames, &[], &[], &FrameStats::default());
         assert_eq!(measured.upload_bytes_per_frame, 10);
         assert_eq!(measured.cpu_ms_per_frame, 1.0);
-        let measured = Measurements::new(String::new(), 0, &frames[..1], &[], &[], &FrameStats::default());
+        let measured = Measurements::new(String::new(), 2, 0, &frames[..1], &[], &[], &FrameStats::default());
         assert_eq!(measured.upload_bytes_per_frame, 1_000_000);
     }
 }

@@ -1,6 +1,6 @@
 //! Draws a scene frame by frame, as a program of a user's would.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::sync::Arc;
 
 use contrejour_gpu::{
@@ -43,6 +43,7 @@ pub struct Renderer {
     counter_log: CounterLog,
     frames: Vec<FrameCost>,
     /// Waits of [`Renderer::draw_complete`], which are no waits of the pipeline's own.
+    submissions: VecDeque<wgpu::SubmissionIndex>,
     waits_asked_for: u64,
 }
 
@@ -90,6 +91,7 @@ impl Renderer {
             background: wgpu::Color { r: red, g: green, b: blue, a: 1.0 },
             counter_log: CounterLog::default(),
             frames: Vec::new(),
+            submissions: VecDeque::new(),
             waits_asked_for: 0,
             light_local,
             gpu,
@@ -104,7 +106,7 @@ impl Renderer {
         })
     }
 
-    /// Draws one frame and paces: returns when the device is done with it.
+    /// Draws one frame; waits only to keep the frames under way at [`Gpu::frames_in_flight`].
     ///
     /// # Errors
     ///
@@ -137,9 +139,7 @@ impl Renderer {
         let upload_bytes = uniform_bytes + self.shadows.stats().upload_bytes;
         self.frames.push(FrameCost { cpu_ms, upload_bytes });
         self.timer.collect();
-        // Paced frame by frame: a software device computes on the cores that the next frame is to be recorded on, and
-        // would be measured with it.
-        self.gpu.device.poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None })?;
+        self.pace(submission)?;
         self.gpu.check()?;
         Ok(())
     }
@@ -185,7 +185,24 @@ impl Renderer {
         let edges = self.casters.iter().map(|caster| caster.topology.edges.len() as u64).sum();
         let mut stats = self.shadows.stats();
         stats.readback_waits -= self.waits_asked_for;
-        Ok(Measurements::new(self.gpu.description(), edges, &self.frames, &counters, self.timer.stages(), &stats))
+        Ok(Measurements::new(
+            self.gpu.description(),
+            self.gpu.frames_in_flight(),
+            edges,
+            &self.frames,
+            &counters,
+            self.timer.stages(),
+            &stats,
+        ))
+    }
+
+    fn pace(&mut self, submission: wgpu::SubmissionIndex) -> Result<(), wgpu::PollError> {
+        self.submissions.push_back(submission);
+        while self.submissions.len() > self.gpu.frames_in_flight() {
+            let submission_index = self.submissions.pop_front();
+            self.gpu.device.poll(wgpu::PollType::Wait { submission_index, timeout: None })?;
+        }
+        Ok(())
     }
 
     pub(crate) fn encoder(&self) -> wgpu::CommandEncoder {

@@ -62,7 +62,7 @@ impl Scene {
             }
             return Ok(scene);
         }
-        let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read { path: path.to_owned(), error })?;
+        let text = read_text(path).map_err(|error| SceneError::Read { path: path.to_owned(), error })?;
         Self::from_toml(&text, path.parent().unwrap_or(Path::new("")), &path.display().to_string())
     }
 
@@ -104,6 +104,14 @@ impl Scene {
     pub fn aspect(&self) -> f64 {
         f64::from(self.size[0]) / f64::from(self.size[1])
     }
+}
+
+/// The text of a regular file: a pipe may never end.
+fn read_text(path: &Path) -> std::io::Result<String> {
+    if std::fs::metadata(path)?.is_file() {
+        return std::fs::read_to_string(path);
+    }
+    Err(std::io::Error::other("is no regular file"))
 }
 
 /// A perspective camera.

@@ -11,9 +11,10 @@ use crate::{Outcome, gpu_trial};
 const SMALL: &str = "render boxes --size 64x40 --map-size 128";
 
 /// What scripts may rely on.
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "device",
     "frames",
+    "frames_in_flight",
     "edges",
     "silhouette_edges",
     "stages",

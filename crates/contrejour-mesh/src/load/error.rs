@@ -21,6 +21,12 @@ pub enum LoadError {
         /// The path as given.
         path: PathBuf,
     },
+    /// The path names a pipe, a socket or a device.
+    #[error("{}: is no regular file; write the mesh to a file first", path.display())]
+    NotAFile {
+        /// The path as given.
+        path: PathBuf,
+    },
     /// The file has no bytes.
     #[error("{}: the file is empty; export the mesh again", path.display())]
     Empty {

@@ -27,7 +27,8 @@ pub use stl::load_stl;
 
 /// Loads a mesh file; its extension (.obj, .gltf, .glb, .ply, .stl, in any case) names the format.
 ///
-/// A file without triangles is an empty mesh and no error. What the loader leaves out is in [`MeshFile::warnings`].
+/// A file without triangles is an empty mesh and no error. What the loader leaves out, and that nothing is there, is in
+/// [`MeshFile::warnings`].
 ///
 /// # Errors
 ///
@@ -46,7 +47,7 @@ pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
     if bytes.is_empty() {
         return Err(LoadError::Empty { path: path.into() });
     }
-    match format {
+    let mut file = match format {
         #[cfg(feature = "obj")]
         "obj" => load_obj(&bytes, path),
         #[cfg(feature = "gltf")]
@@ -56,13 +57,21 @@ pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
         #[cfg(feature = "stl")]
         "stl" => load_stl(&bytes, path),
         feature => Err(LoadError::FormatDisabled { path: path.into(), feature }),
+    }?;
+    if file.triangle_count() == 0 {
+        file.warnings.push(format!("{}: there is no face in the file; export the mesh with its faces", path.display()));
     }
+    Ok(file)
 }
 
-/// Reads a whole file; a directory has an error of its own.
+/// Reads a whole file; directories, pipes and devices have errors of their own, since a pipe may never end.
 fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {
-    if path.is_dir() {
+    let kind = fs::metadata(path).map_err(|source| LoadError::Read { path: path.into(), source })?;
+    if kind.is_dir() {
         return Err(LoadError::Directory { path: path.into() });
+    }
+    if !kind.is_file() {
+        return Err(LoadError::NotAFile { path: path.into() });
     }
     fs::read(path).map_err(|source| LoadError::Read { path: path.into(), source })
 }

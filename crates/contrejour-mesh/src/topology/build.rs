@@ -156,7 +156,11 @@ fn report(
             .map(|(_, id)| id)
             .collect(),
         zero_area_faces: partners.iter().map(|partner| partner.face).collect(),
-        unlit_faces: partners.iter().filter(|partner| partner.of.is_none()).map(|partner| partner.face).collect(),
+        unlit_faces: partners
+            .iter()
+            .filter(|partner| partner.of.is_none() && !partner.negated)
+            .map(|partner| partner.face)
+            .collect(),
         duplicate_faces: census.duplicate_faces,
     }
 }

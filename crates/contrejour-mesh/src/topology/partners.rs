@@ -2,7 +2,7 @@
 //!
 //! A face with three distinct, exactly collinear corners has no side. It takes the sign that makes its longest edge
 //! no silhouette against the one face across it; where that face has no area either, the chain is followed. Where
-//! there is no single face across, or the chain ends so or comes back to itself, the face is unlit.
+//! there is no single face across, the face is unlit, and so are all faces of a chain that comes back to itself.
 
 use contrejour_layout::{Face, INCIDENCE_ALONG, UNLIT_FACE, incidence};
 
@@ -14,7 +14,7 @@ use super::exact::between;
 pub struct Partner {
     /// The face without area.
     pub face: u32,
-    /// The face with area whose sign it takes; `None`: it is unlit.
+    /// The face with area whose sign it takes; `None`: that of an unlit face.
     pub of: Option<u32>,
     /// Whether it takes the opposite of that sign.
     pub negated: bool,
@@ -26,6 +26,8 @@ struct SignOf {
     face: u32,
     negated: bool,
 }
+
+const UNLIT: SignOf = SignOf { face: UNLIT_FACE, negated: false };
 
 /// Finds the partner of each of the faces `without_area`, which are ascending.
 pub(super) fn find_partners(
@@ -42,8 +44,8 @@ pub(super) fn find_partners(
         .zip(signs)
         .map(|(&face, sign)| Partner {
             face,
-            of: sign.map(|sign| sign.face),
-            negated: sign.is_some_and(|sign| sign.negated),
+            of: (sign.face != UNLIT_FACE).then_some(sign.face),
+            negated: sign.negated,
         })
         .collect()
 }
@@ -76,12 +78,12 @@ enum Chain {
     Unknown,
     /// On the path that is being followed.
     Open,
-    Known(Option<SignOf>),
+    Known(SignOf),
 }
 
 /// Replaces each sign that is taken from a face without area by the one at the end of the chain. `slot_of` gives the
 /// place of a face without area.
-fn follow_chains(across: &[Option<SignOf>], slot_of: impl Fn(u32) -> Option<usize>) -> Vec<Option<SignOf>> {
+fn follow_chains(across: &[Option<SignOf>], slot_of: impl Fn(u32) -> Option<usize>) -> Vec<SignOf> {
     let mut chains = vec![Chain::Unknown; across.len()];
     let mut path = Vec::new();
     for start in 0..across.len() {
@@ -89,24 +91,34 @@ fn follow_chains(across: &[Option<SignOf>], slot_of: impl Fn(u32) -> Option<usiz
         let mut sign = loop {
             match chains[slot] {
                 Chain::Known(sign) => break sign,
-                Chain::Open => break None,
+                Chain::Open => {
+                    // Every face from here on asks the next one: none has a sign to take.
+                    for slot in path.drain(..) {
+                        chains[slot] = Chain::Known(UNLIT);
+                    }
+                    break UNLIT;
+                }
                 Chain::Unknown => {}
             }
+            let Some(next) = across[slot] else {
+                chains[slot] = Chain::Known(UNLIT);
+                break UNLIT;
+            };
             chains[slot] = Chain::Open;
             path.push(slot);
-            let Some(next) = across[slot] else { break None };
             match slot_of(next.face) {
                 Some(next_slot) => slot = next_slot,
                 // Taken as it is here; the way back below adds what each link negates.
-                None => break Some(SignOf { face: next.face, negated: false }),
+                None => break SignOf { face: next.face, negated: false },
             }
         };
         while let Some(slot) = path.pop() {
-            sign = sign.zip(across[slot]).map(|(end, link)| SignOf { negated: end.negated != link.negated, ..end });
+            let is_negated = across[slot].is_some_and(|link| link.negated);
+            sign = SignOf { negated: sign.negated != is_negated, ..sign };
             chains[slot] = Chain::Known(sign);
         }
     }
-    chains.into_iter().map(|chain| if let Chain::Known(sign) = chain { sign } else { None }).collect()
+    chains.into_iter().map(|chain| if let Chain::Known(sign) = chain { sign } else { UNLIT }).collect()
 }
 
 /// Lets the incidence words of faces without area name their partners.

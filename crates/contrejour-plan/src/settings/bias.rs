@@ -3,7 +3,8 @@
 /// How far a receiver must lie behind the map's depth to be in shadow.
 ///
 /// Unit of all: texel footprints, the world size of a shadow map's texel at the receiver's depth, so that the same
-/// numbers fit all map sizes and light distances. Too little: the surface shadows itself in stripes. Too much: a
+/// numbers fit all map sizes and light distances; on maps below some 64 texels a footprint is so large that the bias
+/// swallows shadows. Too little: the surface shadows itself in stripes. Too much: a
 /// shadow comes loose from its caster, and the soft edge from the hard one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -11,7 +12,7 @@ pub struct DepthBias {
     /// Added to the map's depth on every surface. Range: 0 and up. Default: 0.5.
     pub constant_texels: f32,
     /// Added for each unit of the surface's slope towards the light (the tangent of the angle between its normal and
-    /// the light's axis): across a texel the surface recedes that much. Range: 0 and up. Default: 1.5, as the four
+    /// the direction to the light, at most 64): across a texel the surface recedes that much. Range: 0 and up. Default: 1.5, as the four
     /// nearest texels are looked up.
     pub slope_texels: f32,
     /// The receiver is moved along its normal by this much before the look-up, times the sine of the angle between

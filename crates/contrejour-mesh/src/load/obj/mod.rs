@@ -25,6 +25,13 @@ use materials::Materials;
 /// [`LoadError`] with the line of an index out of range, of a number that cannot be read, and of a coordinate that is
 /// not finite.
 pub fn load_obj(bytes: &[u8], path: &Path) -> Result<MeshFile, LoadError> {
+    if bytes.contains(&0) {
+        return Err(LoadError::Malformed {
+            path: path.into(),
+            place: "bytes".into(),
+            problem: "holds zero bytes, so it is no text; if it is another format, give it that extension".into(),
+        });
+    }
     let text = String::from_utf8_lossy(bytes);
     let lines = ObjLines::read(&text, path)?;
     let mut warnings = lines.warnings();
