@@ -10,6 +10,8 @@ struct ContrejourLookup {
     ndc: vec2f,
     depth: f32,
     in_map: bool,
+    // The surface's other side faces the light.
+    is_averted: bool,
 }
 
 // The steepest slope that the slope-scaled bias follows; beyond, a surface is lit too flatly to matter.
@@ -20,23 +22,25 @@ fn contrejour_lookup(position_world: vec3f, normal_world: vec3f) -> ContrejourLo
     let light = contrejour_receiver_view.light_world;
     let towards_light = normalize(light.xyz - light.w * position_world);
     let facing = dot(normal_world, towards_light);
-    let cosine = clamp(abs(facing), 1.0 / CONTREJOUR_MAX_SLOPE, 1.0);
+    let has_normal = any(normal_world != vec3f(0.0));
+    let cosine = select(1.0, clamp(abs(facing), 1.0 / CONTREJOUR_MAX_SLOPE, 1.0), has_normal);
     let sine = sqrt(1.0 - cosine * cosine);
     let unbiased = contrejour_receiver_view.light_clip_from_world * vec4f(position_world, 1.0);
     let footprint = contrejour_receiver_view.texel_world
         * select(1.0, max(unbiased.w, contrejour_receiver_view.near_depth), contrejour_receiver_view.perspective == 1u);
-    let offset = contrejour_receiver_view.bias_normal_texels * footprint * sine * select(-1.0, 1.0, facing >= 0.0);
+    let offset = contrejour_receiver_view.bias_normal_texels * footprint * sine;
     let clip = contrejour_receiver_view.light_clip_from_world * vec4f(position_world + offset * normal_world, 1.0);
     let depth = select(
         mix(contrejour_receiver_view.near_depth, contrejour_receiver_view.far_depth, clip.z),
         clip.w,
         contrejour_receiver_view.perspective == 1u,
     );
-    let bias = footprint * (contrejour_receiver_view.bias_constant_texels + contrejour_receiver_view.bias_slope_texels * sine / cosine);
+    let bias_texels = contrejour_receiver_view.bias_constant_texels
+        + contrejour_receiver_view.bias_slope_texels * sine / cosine;
 
     let ndc = clip.xy / clip.w;
     let in_map = clip.w > 0.0 && all(abs(ndc) <= vec2f(1.0)) && depth <= contrejour_receiver_view.far_depth;
-    return ContrejourLookup(ndc, depth - bias, in_map);
+    return ContrejourLookup(ndc, depth - footprint * bias_texels, in_map, facing < 0.0);
 }
 
 // Map coordinates in texels from NDC: y points down in a texture.
@@ -45,16 +49,23 @@ fn contrejour_texel_from_ndc(ndc: vec2f) -> vec2f {
 }
 
 // Visibility of the light from a point with a unit normal: the weighted mean over the four nearest texels. Points
-// outside the light's maps are lit.
+// outside the light's maps are lit; a side that is averted from the light is dark. Without a normal (zero) no side is.
 fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 {
     let lookup = contrejour_lookup(position_world, normal_world);
+    if lookup.is_averted {
+        return 0.0;
+    }
     if !lookup.in_map {
         return 1.0;
     }
     let texel = contrejour_texel_from_ndc(lookup.ndc) - 0.5;
     let corner = vec2i(floor(texel));
     let weight = fract(texel);
-    let low = mix(contrejour_clamped_visibility(corner, lookup.depth), contrejour_clamped_visibility(corner + vec2i(1, 0), lookup.depth), weight.x);
+    let low = mix(
+        contrejour_clamped_visibility(corner, lookup.depth),
+        contrejour_clamped_visibility(corner + vec2i(1, 0), lookup.depth),
+        weight.x,
+    );
     let high = mix(
         contrejour_clamped_visibility(corner + vec2i(0, 1), lookup.depth),
         contrejour_clamped_visibility(corner + vec2i(1, 1), lookup.depth),

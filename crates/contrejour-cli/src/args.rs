@@ -34,7 +34,8 @@ pub struct RenderArguments {
     /// scene]
     pub scene: Option<String>,
 
-    /// Where the picture goes [default: contrejour.png]; with --orbit a name such as frame-%03d.png
+    /// Where the picture goes [default: contrejour.png]; with --orbit a name such as frame-%03d.png. Folders are made
+    /// where they are missing
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 

@@ -5,14 +5,14 @@ use contrejour_plan::{DeviceFacts, Light, Outputs, ShadowSettings};
 
 use crate::casters::CasterInput;
 
-/// What a [`Shadows`] object is made for.
+/// What a [`Shadows`](crate::Shadows) object is made for.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowOptions {
     /// Technique, map size, bias. Default: the preset `medium`.
     pub settings: ShadowSettings,
     /// What the caller wants of a frame. Default: maps for the visibility function.
     pub outputs: Outputs,
-    /// Format of the target of [`Shadows::encode_visibility`]. Default: `R8Unorm`.
+    /// Format of the target of [`Shadows::encode_visibility`](crate::Shadows::encode_visibility). Default: `R8Unorm`.
     pub visibility_format: wgpu::TextureFormat,
 }
 
@@ -51,13 +51,13 @@ pub struct Maps<'a> {
 /// What is known about the frames so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameStats {
-    /// Bytes that the last [`prepare`](Shadows::prepare) uploaded for the frame: light and instance records.
+    /// Bytes that the last [`prepare`](crate::Shadows::prepare) uploaded for the frame: light and instance records.
     pub upload_bytes: u64,
     /// Bytes that it uploaded once because meshes or casters came or went.
     pub set_up_bytes: u64,
     /// Frames whose quads or corners did not fit, as far as their counters have arrived.
     pub overflow_frames: u64,
-    /// Times that the library waited for the device: only [`wait_for_counters`](Shadows::wait_for_counters) does.
+    /// Times that the library waited for the device: only [`wait_for_counters`](crate::Shadows::wait_for_counters) does.
     pub readback_waits: u64,
     /// Casters of the last frame whose matrix is singular: they cast nothing.
     pub singular_casters: u32,

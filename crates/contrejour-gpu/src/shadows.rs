@@ -163,7 +163,9 @@ impl Shadows {
 
     /// WGSL text with the function `contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32` and its
     /// bindings in the given bind group; append it to a shader. All its names start with `contrejour`, but for the
-    /// struct `ReceiverView`. Normals have unit length; 0 is dark, 1 is lit; points outside the light's maps are lit.
+    /// struct `ReceiverView`. Normals have unit length and
+    /// are those of the side that is seen: a side averted from the light is dark. 0 is dark, 1 is lit; points outside the
+    /// light's maps are lit.
     ///
     /// # Panics
     ///

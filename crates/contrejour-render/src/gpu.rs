@@ -44,7 +44,7 @@ pub enum OpenGpuError {
 
 /// The device reported an error that no call returned, or was lost.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the graphics device failed: {0}")]
+#[error("the graphics device failed: {0}; where it ran out of memory, choose a smaller --size or --map-size")]
 pub struct DeviceFault(String);
 
 impl Gpu {

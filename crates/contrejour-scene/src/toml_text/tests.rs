@@ -116,7 +116,13 @@ fn numbers_that_make_no_sense_are_refused() {
     assert_refused("radius = 0.8", "radius = -1", 13, 36, "`radius` is -1");
     assert_refused("segments = 16", "segments = 65_537", 13, 52, "`segments` is 65537: give a whole number from 3");
     assert_refused("segments = 16", "segments = -3", 13, 52, "`segments` is -3");
-    assert_refused("[[mesh]]", "[[mesh]]\nscale = 0", 13, 9, "`scale` is 0; give a number that is not 0");
+    assert_refused(
+        "[[mesh]]",
+        "[[mesh]]\nscale = 0",
+        13,
+        9,
+        "`scale` is 0; give a number between -1e15 and 1e15 and not within 1e-15 of 0",
+    );
     assert_refused("[[mesh]]", "[[mesh]]\nscale = [1, 0, 1]", 13, 13, "`scale` is 0");
     assert_refused("[[mesh]]", "[[mesh]]\nbase_color = [1, 2, 1]", 13, 18, "a number from 0 to 1");
 }

@@ -19,12 +19,13 @@ pub(super) struct Accepts {
 /// Any number up to [`LARGEST`].
 pub(super) const ANY: Accepts = Accepts { test: |_| true, says: "a number between -1e15 and 1e15" };
 /// Numbers above zero.
-pub(super) const POSITIVE: Accepts = Accepts { test: |value| value > 1e-15, says: "a number above 0 and up to 1e15" };
+pub(super) const POSITIVE: Accepts =
+    Accepts { test: |value| value > 1e-15, says: "a number above 1e-15 and up to 1e15" };
 /// Zero and up.
 pub(super) const NOT_NEGATIVE: Accepts = Accepts { test: |value| value >= 0.0, says: "a number from 0 to 1e15" };
 /// Anything but zero.
 pub(super) const NOT_ZERO: Accepts =
-    Accepts { test: |value| value.abs() > 1e-15, says: "a number that is not 0, between -1e15 and 1e15" };
+    Accepts { test: |value| value.abs() > 1e-15, says: "a number between -1e15 and 1e15 and not within 1e-15 of 0" };
 /// Shares.
 pub(super) const SHARE: Accepts = Accepts { test: |value| (0.0..=1.0).contains(&value), says: "a number from 0 to 1" };
 /// Opening angles, in degrees.
