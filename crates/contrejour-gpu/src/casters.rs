@@ -5,7 +5,8 @@ use glam::DMat4;
 
 use crate::pool::{MeshHandle, MeshPool, MeshRange, PoolWords};
 
-/// A mesh that casts in this frame.
+/// A mesh that casts in this frame. What receives shadows belongs here too: soft edges harden towards what is in the map,
+/// and over what is not they are as soft at the contact as far away.
 #[derive(Clone, Copy, Debug)]
 pub struct CasterInput<'a> {
     /// Which mesh.

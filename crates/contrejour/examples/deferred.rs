@@ -8,6 +8,7 @@ mod common;
 use std::sync::Arc;
 
 use common::{Outcome, Torus};
+use contrejour::glam::DMat4;
 use contrejour::prelude::*;
 use contrejour::wgpu;
 
@@ -28,10 +29,14 @@ fn main() -> Outcome {
     let mut shadows = Shadows::new(&device, &options)?;
     let mesh = TopologyAwareMesh::build(&torus.positions, &torus.triangles, &BuildOptions::default())?;
     let mesh = shadows.add_mesh(Arc::new(mesh))?;
+    // The floor too: a shadow hardens towards what is in the map.
+    let floor = TopologyAwareMesh::build(&common::FLOOR, &[[0, 1, 2], [3, 4, 5]], &BuildOptions::default())?;
+    let floor = shadows.add_mesh(Arc::new(floor))?;
 
     let light = common::light();
-    let caster = CasterInput { mesh, world_from_object: common::world_from_body(), positions: Positions::OfMesh };
-    shadows.prepare(&device, &queue, &FrameInput { light: &light, casters: &[caster] })?;
+    let body = CasterInput { mesh, world_from_object: common::world_from_body(), positions: Positions::OfMesh };
+    let floor = CasterInput { mesh: floor, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
+    shadows.prepare(&device, &queue, &FrameInput { light: &light, casters: &[body, floor] })?;
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);
 
