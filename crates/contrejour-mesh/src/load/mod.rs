@@ -47,21 +47,30 @@ pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
     if bytes.is_empty() {
         return Err(LoadError::Empty { path: path.into() });
     }
-    let mut file = match format {
-        #[cfg(feature = "obj")]
-        "obj" => load_obj(&bytes, path),
-        #[cfg(feature = "gltf")]
-        "gltf" => load_gltf(&bytes, path),
-        #[cfg(feature = "ply")]
-        "ply" => load_ply(&bytes, path),
-        #[cfg(feature = "stl")]
-        "stl" => load_stl(&bytes, path),
-        feature => Err(LoadError::FormatDisabled { path: path.into(), feature }),
-    }?;
+    let mut file = load_format(format, &bytes, path)?;
     if file.triangle_count() == 0 {
         file.warnings.push(format!("{}: there is no face in the file; export the mesh with its faces", path.display()));
     }
     Ok(file)
+}
+
+/// Loads from bytes, where the loader of the format is built in.
+#[cfg_attr(
+    not(any(feature = "obj", feature = "gltf", feature = "ply", feature = "stl")),
+    expect(unused_variables, reason = "no loader reads the bytes")
+)]
+fn load_format(format: &'static str, bytes: &[u8], path: &Path) -> Result<MeshFile, LoadError> {
+    match format {
+        #[cfg(feature = "obj")]
+        "obj" => load_obj(bytes, path),
+        #[cfg(feature = "gltf")]
+        "gltf" => load_gltf(bytes, path),
+        #[cfg(feature = "ply")]
+        "ply" => load_ply(bytes, path),
+        #[cfg(feature = "stl")]
+        "stl" => load_stl(bytes, path),
+        feature => Err(LoadError::FormatDisabled { path: path.into(), feature }),
+    }
 }
 
 /// Reads a whole file; directories, pipes and devices have errors of their own, since a pipe may never end.
