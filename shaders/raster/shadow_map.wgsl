@@ -1,4 +1,5 @@
-// Fills the shadow map of a light view: hardware depth and linear depth of every caster, nearest wins, both face sides.
+// Fills the shadow map of a light view: hardware depth of every caster, and linear depth where it is read; nearest wins,
+// both face sides.
 // One vertex invocation = one corner of one face of one work item, so that one draw serves all casters.
 // Reads face_items, casters, caster_lights, faces, positions.
 
@@ -34,5 +35,5 @@ fn vertex_shadow_map(@builtin(vertex_index) index: u32) -> ShadowVertex {
 
 @fragment
 fn fragment_shadow_map(vertex: ShadowVertex) -> @location(0) f32 {
-    return vertex.depth;
+    return vertex.depth / view.depth_unit;
 }

@@ -93,13 +93,13 @@ fn fragment_smoothie_alpha(vertex: SmoothieVertex) -> @location(0) f32 {
     return remapped_alpha(vertex);
 }
 
-// Both at once, for devices that blend 32-bit floats.
+// Both at once, where the device blends floats of the buffer's size.
 @fragment
 fn fragment_smoothie_buffer(vertex: SmoothieVertex) -> @location(0) vec2f {
     if !is_kept(vertex) {
         discard;
     }
-    return vec2f(depth_of_q(vertex.q), remapped_alpha(vertex));
+    return vec2f(depth_of_q(vertex.q) / view.depth_unit, remapped_alpha(vertex));
 }
 
 fn distance_to_edge(vertex: SmoothieVertex) -> f32 {
@@ -107,7 +107,7 @@ fn distance_to_edge(vertex: SmoothieVertex) -> f32 {
 }
 
 fn receiver_depth(vertex: SmoothieVertex) -> f32 {
-    return textureLoad(shadow_depth, vec2u(vertex.clip.xy), 0).x;
+    return view.depth_unit * textureLoad(shadow_depth, vec2u(vertex.clip.xy), 0).x;
 }
 
 // Within the width, and in front of the receiver: a smoothie behind it must not darken a nearer one's texel.

@@ -5,11 +5,9 @@
 @group(0) @binding(0) var<uniform> eye_view: EyeView;
 @group(0) @binding(1) var eye_depth: texture_depth_2d;
 
-const CONTREJOUR_GROUP = 1u;
-
 @vertex
 fn vertex_visibility(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    return vec4f(select(-1.0, 3.0, index == 1u), select(-1.0, 3.0, index == 2u), 0.0, 1.0);
+    return full_screen_clip(index);
 }
 
 @fragment

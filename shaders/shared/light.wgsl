@@ -29,5 +29,9 @@ struct LightView {
     width_max_ndc: f32,
     bias_smoothie_texels: f32,
     texel_world: f32,
+    depth_unit: f32,
+    warp_exponent: f32,
     unused_0: u32,
+    unused_1: u32,
+    unused_2: u32,
 }

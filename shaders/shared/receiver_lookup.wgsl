@@ -3,11 +3,14 @@
 // Every name here carries the library's, so that it meets none of the caller's.
 
 @group(CONTREJOUR_GROUP) @binding(0) var<uniform> contrejour_receiver_view: ReceiverView;
-@group(CONTREJOUR_GROUP) @binding(1) var contrejour_shadow_depth: texture_2d<f32>;
 
 // Where a receiver looks into the maps, and the depth that it compares.
 struct ContrejourLookup {
+    position_world: vec3f,
+    normal_world: vec3f,
     ndc: vec2f,
+    clip_w: f32,
+    // What the bias left of the receiver's depth.
     depth: f32,
     in_map: bool,
     // The surface's other side faces the light.
@@ -17,39 +20,8 @@ struct ContrejourLookup {
 // The steepest slope that the slope-scaled bias follows; beyond, a surface is lit too flatly to matter.
 const CONTREJOUR_MAX_SLOPE = 64.0;
 
-fn contrejour_lookup(position_world: vec3f, normal_world: vec3f) -> ContrejourLookup {
-    // Move along the normal, then take the constant and the slope-scaled bias off the depth.
-    let light = contrejour_receiver_view.light_world;
-    let towards_light = normalize(light.xyz - light.w * position_world);
-    let facing = dot(normal_world, towards_light);
-    let has_normal = any(normal_world != vec3f(0.0));
-    let cosine = select(1.0, clamp(abs(facing), 1.0 / CONTREJOUR_MAX_SLOPE, 1.0), has_normal);
-    let sine = sqrt(1.0 - cosine * cosine);
-    let unbiased = contrejour_receiver_view.light_clip_from_world * vec4f(position_world, 1.0);
-    let footprint = contrejour_receiver_view.texel_world
-        * select(1.0, max(unbiased.w, contrejour_receiver_view.near_depth), contrejour_receiver_view.perspective == 1u);
-    let offset = contrejour_receiver_view.bias_normal_texels * footprint * sine;
-    let clip = contrejour_receiver_view.light_clip_from_world * vec4f(position_world + offset * normal_world, 1.0);
-    let depth = select(
-        mix(contrejour_receiver_view.near_depth, contrejour_receiver_view.far_depth, clip.z),
-        clip.w,
-        contrejour_receiver_view.perspective == 1u,
-    );
-    let bias_texels = contrejour_receiver_view.bias_constant_texels
-        + contrejour_receiver_view.bias_slope_texels * sine / cosine;
-
-    let ndc = clip.xy / clip.w;
-    let in_map = clip.w > 0.0 && all(abs(ndc) <= vec2f(1.0)) && depth <= contrejour_receiver_view.far_depth;
-    return ContrejourLookup(ndc, depth - footprint * bias_texels, in_map, facing < 0.0);
-}
-
-// Map coordinates in texels from NDC: y points down in a texture.
-fn contrejour_texel_from_ndc(ndc: vec2f) -> vec2f {
-    return (ndc * vec2f(0.5, -0.5) + 0.5) * f32(contrejour_receiver_view.map_size);
-}
-
-// Visibility of the light from a point with a unit normal: the weighted mean over the four nearest texels. Points
-// outside the light's maps are lit; a side that is averted from the light is dark. Without a normal (zero) no side is.
+// Visibility of the light from a point with a unit normal. Points outside the light's maps are lit; a side that is
+// averted from the light is dark. Without a normal (zero) no side is.
 fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 {
     let lookup = contrejour_lookup(position_world, normal_world);
     if lookup.is_averted {
@@ -58,23 +30,42 @@ fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 {
     if !lookup.in_map {
         return 1.0;
     }
-    let texel = contrejour_texel_from_ndc(lookup.ndc) - 0.5;
-    let corner = vec2i(floor(texel));
-    let weight = fract(texel);
-    let low = mix(
-        contrejour_clamped_visibility(corner, lookup.depth),
-        contrejour_clamped_visibility(corner + vec2i(1, 0), lookup.depth),
-        weight.x,
-    );
-    let high = mix(
-        contrejour_clamped_visibility(corner + vec2i(0, 1), lookup.depth),
-        contrejour_clamped_visibility(corner + vec2i(1, 1), lookup.depth),
-        weight.x,
-    );
-    return mix(low, high, weight.y);
+    return contrejour_map_visibility(lookup);
 }
 
-fn contrejour_clamped_visibility(texel: vec2i, depth: f32) -> f32 {
-    let last = i32(contrejour_receiver_view.map_size) - 1;
-    return contrejour_texel_visibility(clamp(texel, vec2i(0), vec2i(last)), depth);
+fn contrejour_lookup(position_world: vec3f, normal_world: vec3f) -> ContrejourLookup {
+    // Move along the normal, then take the constant and the slope-scaled bias off the depth.
+    let view = contrejour_receiver_view;
+    let light = view.light_world;
+    let towards_light = normalize(light.xyz - light.w * position_world);
+    let facing = dot(normal_world, towards_light);
+    let has_normal = any(normal_world != vec3f(0.0));
+    let cosine = select(1.0, clamp(abs(facing), 1.0 / CONTREJOUR_MAX_SLOPE, 1.0), has_normal);
+    let sine = sqrt(1.0 - cosine * cosine);
+    let unbiased = view.light_clip_from_world * vec4f(position_world, 1.0);
+    let footprint = view.texel_world * contrejour_depth_scale(max(unbiased.w, view.near_depth));
+    let position = position_world + view.bias_normal_texels * footprint * sine * normal_world;
+    let clip = view.light_clip_from_world * vec4f(position, 1.0);
+    let depth = select(mix(view.near_depth, view.far_depth, clip.z), clip.w, view.perspective == 1u);
+    let bias_texels = view.bias_constant_texels + view.bias_slope_texels * sine / cosine;
+
+    let ndc = clip.xy / clip.w;
+    let in_map = clip.w > 0.0 && all(abs(ndc) <= vec2f(1.0)) && depth <= view.far_depth;
+    let is_averted = facing < 0.0;
+    return ContrejourLookup(position, normal_world, ndc, clip.w, depth - footprint * bias_texels, in_map, is_averted);
+}
+
+// How lengths on the image plane grow with depth.
+fn contrejour_depth_scale(depth: f32) -> f32 {
+    return select(1.0, depth, contrejour_receiver_view.perspective == 1u);
+}
+
+// Map coordinates, 0 to 1: y points down in a texture.
+fn contrejour_uv_of_ndc(ndc: vec2f) -> vec2f {
+    return ndc * vec2f(0.5, -0.5) + 0.5;
+}
+
+// What is linear on the image plane: -1 / z in a perspective view, z in an orthographic one.
+fn contrejour_q_of_depth(depth: f32) -> f32 {
+    return select(depth, -1.0 / depth, contrejour_receiver_view.perspective == 1u);
 }

@@ -7,7 +7,7 @@ struct ContrejourSmoothie {
 }
 
 fn contrejour_texel_visibility(texel: vec2i, depth: f32) -> f32 {
-    if depth > textureLoad(contrejour_shadow_depth, texel, 0).x {
+    if depth > contrejour_shadow_depth_at(texel) {
         return 0.0;
     }
     let smoothie = contrejour_smoothie_at(texel);

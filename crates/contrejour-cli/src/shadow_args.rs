@@ -2,10 +2,11 @@
 
 use clap::Args;
 use contrejour_plan::{
-    AlphaRemap, PRESETS, SettingsError, ShadowSettings, SmoothieBlend, SmoothieWidth, Technique, UnknownTechnique,
+    AlphaRemap, DepthPrecision, PRESETS, SettingsError, ShadowSettings, SmoothieBlend, SmoothieWidth, Technique,
+    UnknownTechnique,
 };
 
-use crate::values::parse_width;
+use crate::values::{parse_assignment, parse_depth_bits, parse_width};
 
 /// What changes the scene's shadow settings.
 #[derive(Debug, Default, Args)]
@@ -23,12 +24,20 @@ pub struct ShadowArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub map_size: Option<u32>,
 
-    /// Width of the soft edge: a part of the light's image plane, whose side is 2 (the paper shows 0.02 and 0.08), or
+    /// Tunes the technique: a parameter's name and a number, as in filter_samples=64; can be given several times.
+    #[arg(long = "set", value_name = "NAME=NUMBER", value_parser = parse_assignment, allow_hyphen_values = true)]
+    pub parameters: Vec<(String, f64)>,
+
+    /// Bits in which the maps keep linear depth
+    #[arg(long, value_name = "N", value_parser = parse_depth_bits)]
+    pub depth_bits: Option<DepthPrecision>,
+
+    /// Width of smoothies: a part of the light's image plane, whose side is 2 (the paper shows 0.02 and 0.08), or
     /// `light` to take it from the light's size
     #[arg(long, value_name = "T|light", value_parser = parse_width, allow_hyphen_values = true)]
     pub width: Option<SmoothieWidth>,
 
-    /// Leave alpha as it is, to see the contact problem that its remap cures
+    /// Leave the smoothies' alpha as it is, to see the contact problem that its remap cures
     #[arg(long)]
     pub unremapped_alpha: bool,
 
@@ -48,6 +57,10 @@ impl ShadowArguments {
             settings.technique = name.parse()?;
         }
         settings.map_size = self.map_size.unwrap_or(settings.map_size);
+        settings.depth_precision = self.depth_bits.unwrap_or(settings.depth_precision);
+        for (name, value) in &self.parameters {
+            settings.technique.set(name, *value)?;
+        }
         match &mut settings.technique {
             Technique::Smoothies(smoothies) => {
                 smoothies.width = self.width.unwrap_or(smoothies.width);
@@ -121,5 +134,18 @@ mod tests {
             Err(ShadowArgumentError::NotSmoothies { .. })
         ));
         assert!(matches!(shadow("contrejour render --width 5"), Err(ShadowArgumentError::Settings(_))));
+    }
+
+    #[test]
+    fn techniques_are_tuned_by_name() {
+        let settings = shadow("contrejour render --technique pcss --set filter_samples=64 --set search_max_ndc=0.5")
+            .expect("all is fine");
+        let Technique::Pcss(pcss) = settings.technique else { panic!("it was asked for") };
+        assert_eq!((pcss.filter_samples, pcss.search_max_ndc), (64, 0.5));
+        for line in ["--technique pcss --set kernel=5", "--technique pcss --set filter_samples=-1", "--set width_ndc=3"]
+        {
+            let error = shadow(&format!("contrejour render {line}"));
+            assert!(matches!(error, Err(ShadowArgumentError::Settings(_))), "{line}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Values on the command line.
 
-use contrejour_plan::SmoothieWidth;
+use contrejour_plan::{DepthPrecision, SmoothieWidth};
 use contrejour_scene::Scene;
 
 /// `x,y,z`: three finite numbers, straight to `f32`.
@@ -32,6 +32,22 @@ pub fn parse_width(text: &str) -> Result<SmoothieWidth, String> {
     }
 }
 
+/// `NAME=NUMBER`.
+pub fn parse_assignment(text: &str) -> Result<(String, f64), String> {
+    let (name, number) = text.split_once('=').ok_or("give a name and a number, as in filter_samples=64")?;
+    let value: f64 = number.trim().parse().map_err(|_| format!("{number:?} is no number"))?;
+    Ok((name.trim().to_owned(), value))
+}
+
+/// 16 or 32.
+pub fn parse_depth_bits(text: &str) -> Result<DepthPrecision, String> {
+    match text {
+        "16" => Ok(DepthPrecision::Bits16),
+        "32" => Ok(DepthPrecision::Bits32),
+        _ => Err("give 16 or 32".to_owned()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,5 +75,13 @@ mod tests {
         assert_eq!(parse_width("light"), Ok(SmoothieWidth::FromLightSize));
         assert_eq!(parse_width("0.02"), Ok(SmoothieWidth::Ndc(0.02)));
         assert!(parse_width("nan").is_err());
+    }
+
+    #[test]
+    fn assignments() {
+        assert_eq!(parse_assignment("kernel = 5"), Ok(("kernel".to_owned(), 5.0)));
+        for text in ["kernel", "kernel=", "kernel=x"] {
+            assert!(parse_assignment(text).is_err(), "{text}");
+        }
     }
 }

@@ -78,8 +78,8 @@ impl FrameDraft {
         let casters = CasterSet::new(keys.collect(), pool.words());
         let records = Records {
             caster_lights,
-            light_view: view.light_view(&options.settings, &plan.counts),
-            receiver_view: view.receiver_view(options.settings.map_size, &options.settings.bias),
+            light_view: view.light_view(&plan.settings, &plan.counts),
+            receiver_view: view.receiver_view(&plan.settings),
         };
         let copies = live_copies(input.casters, &live, pool.words().positions);
         Ok(Self { plan, casters, records, copies })

@@ -1,6 +1,6 @@
 //! Everything on the device that a frame plan lists, and the frame's commands.
 
-use contrejour_layout::Counters;
+use contrejour_layout::{Counters, LightView};
 use contrejour_plan::{BufferKind, FramePlan, ViewCounts};
 
 use crate::compute::StagePipeline;
@@ -20,16 +20,16 @@ pub(crate) struct Frame {
     passes: Vec<Bound<MapPipeline>>,
 }
 
-/// A pipeline with its bind group, which is made again when a buffer or a texture is.
+/// A pipeline with its bind groups, which are made again when a buffer or a texture is.
 #[derive(Debug)]
 struct Bound<P> {
     pipeline: P,
-    bind_group: Option<wgpu::BindGroup>,
+    bind_groups: Vec<wgpu::BindGroup>,
 }
 
 impl<P> Bound<P> {
     fn new(pipeline: P) -> Self {
-        Self { pipeline, bind_group: None }
+        Self { pipeline, bind_groups: Vec::new() }
     }
 }
 
@@ -60,13 +60,13 @@ impl Frame {
 
         let is_stale = !made.buffers.is_empty() || made.textures;
         for stage in &mut self.stages {
-            if is_stale || stage.bind_group.is_none() {
-                stage.bind_group = Some(stage.pipeline.bind(device, &self.buffers));
+            if is_stale || stage.bind_groups.is_empty() {
+                stage.bind_groups = vec![stage.pipeline.bind(device, &self.buffers)];
             }
         }
         for pass in &mut self.passes {
-            if is_stale || pass.bind_group.is_none() {
-                pass.bind_group = Some(pass.pipeline.bind(device, &self.buffers, &self.textures));
+            if is_stale || pass.bind_groups.is_empty() {
+                pass.bind_groups = pass.pipeline.bind(device, &self.buffers, &self.textures);
             }
         }
         made
@@ -77,21 +77,19 @@ impl Frame {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         counts: &ViewCounts,
-        far_depth: f32,
+        view: &LightView,
         timer: &mut T,
     ) {
         if let Some(counters) = self.buffers.find(BufferKind::Counters) {
             encoder.clear_buffer(counters, 0, Some(size_of::<Counters>() as u64));
         }
-        for Bound { pipeline, bind_group } in &self.stages {
-            if let Some(bind_group) = bind_group {
+        for Bound { pipeline, bind_groups } in &self.stages {
+            for bind_group in bind_groups {
                 pipeline.encode(encoder, bind_group, &self.buffers, counts, timer);
             }
         }
-        for Bound { pipeline, bind_group } in &self.passes {
-            if let Some(bind_group) = bind_group {
-                pipeline.encode(encoder, bind_group, (&self.buffers, &self.textures), (counts, far_depth), timer);
-            }
+        for Bound { pipeline, bind_groups } in &self.passes {
+            pipeline.encode(encoder, bind_groups, (&self.buffers, &self.textures), (counts, view), timer);
         }
     }
 }

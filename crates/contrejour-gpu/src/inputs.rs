@@ -38,13 +38,19 @@ pub struct FrameInput<'a> {
 /// The maps of the light's view.
 #[derive(Clone, Copy, Debug)]
 pub struct Maps<'a> {
-    /// Linear depth of the nearest caster, `R32Float`; the view's farthest depth where there is none.
+    /// Linear depth of the nearest caster, `R32Float`; the view's farthest depth where there is none. With 16 bits
+    /// `R16Float`, as a share of the farthest depth.
     pub shadow_depth: Option<&'a wgpu::Texture>,
+    /// Clip z of the nearest caster, `Depth32Float`; 1 where there is none. Holds nothing where linear depth is read.
+    pub shadow_hardware_depth: Option<&'a wgpu::Texture>,
+    /// Moments of depth with all levels, in two or four channels of 16 or 32 bits; for variance shadow maps.
+    pub moments: Option<&'a wgpu::Texture>,
     /// Nearest smoothie depth in clip z, `Depth32Float`; where the buffer is in two textures.
     pub smoothie_depth: Option<&'a wgpu::Texture>,
     /// Least smoothie alpha, `R16Float`; where the buffer is in two textures.
     pub smoothie_alpha: Option<&'a wgpu::Texture>,
-    /// Nearest linear smoothie depth and least alpha, `Rg32Float`; where the buffer is in one texture.
+    /// Nearest linear smoothie depth and least alpha, `Rg32Float`; where the buffer is in one texture. With 16 bits
+    /// `Rg16Float`, depth as a share of the farthest.
     pub smoothie_buffer: Option<&'a wgpu::Texture>,
 }
 
@@ -74,6 +80,7 @@ pub fn device_facts(device: &wgpu::Device) -> DeviceFacts {
     let limits = device.limits();
     DeviceFacts {
         float32_blendable: device.features().contains(wgpu::Features::FLOAT32_BLENDABLE),
+        float32_filterable: device.features().contains(wgpu::Features::FLOAT32_FILTERABLE),
         max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
         max_buffer_size: limits.max_buffer_size,
         max_texture_dimension_2d: limits.max_texture_dimension_2d,

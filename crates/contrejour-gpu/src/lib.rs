@@ -22,12 +22,14 @@ mod shadows;
 pub mod stages;
 mod timer;
 mod visibility;
+mod visibility_wgsl;
 mod wgsl;
 
 pub use casters::{CasterInput, Positions};
+pub use contrejour_plan::VisibilityKind;
 pub use error::{AddMeshError, CountersError, NewShadowsError, PrepareError};
 pub use inputs::{FrameInput, FrameStats, Maps, ShadowOptions, device_facts};
 pub use pool::{MeshHandle, mesh_facts};
 pub use shadows::Shadows;
 pub use timer::{PassTimer, Untimed};
-pub use visibility::{EyeInput, VisibilityKind};
+pub use visibility::EyeInput;

@@ -1,9 +1,9 @@
 //! A raster pass over a light view's maps on the device.
 
-use contrejour_layout::{BLOCK_SIZE, DrawArgs};
+use contrejour_layout::{BLOCK_SIZE, DrawArgs, LightView};
 use contrejour_plan::{BufferKind, EntryPoints, FramePlan, Pass, PipelinePlan, TextureKind, ViewCounts};
 
-use crate::passes::{ClearColor, DrawCount, MapPass};
+use crate::passes::{ClearColor, DrawCount, Levels, MapPass};
 use crate::resources::{Buffers, Textures, UNFILTERED_FLOAT, binding_type, format};
 use crate::timer::PassTimer;
 
@@ -35,13 +35,13 @@ impl MapPipeline {
         });
         let targets = description.color.map(|target| {
             Some(wgpu::ColorTargetState {
-                format: format(target.texture),
+                format: planned_format(plan, target.texture),
                 blend: target.minimum.then_some(wgpu::BlendState { color: MINIMUM, alpha: MINIMUM }),
                 write_mask: wgpu::ColorWrites::ALL,
             })
         });
         let depth_stencil = description.depth.map(|target| wgpu::DepthStencilState {
-            format: format(target.texture),
+            format: planned_format(plan, target.texture),
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Less),
             stencil: wgpu::StencilState::default(),
@@ -64,7 +64,7 @@ impl MapPipeline {
                     primitive: wgpu::PrimitiveState::default(),
                     depth_stencil: depth_stencil.clone(),
                     multisample: wgpu::MultisampleState::default(),
-                    fragment: Some(wgpu::FragmentState {
+                    fragment: fragment.map(|fragment| wgpu::FragmentState {
                         module: &module,
                         entry_point: Some(fragment),
                         compilation_options,
@@ -83,64 +83,99 @@ impl MapPipeline {
         self.description.pass
     }
 
-    pub fn bind(&self, device: &wgpu::Device, buffers: &Buffers, textures: &Textures) -> wgpu::BindGroup {
+    /// One bind group for each level that the pass fills.
+    pub fn bind(&self, device: &wgpu::Device, buffers: &Buffers, textures: &Textures) -> Vec<wgpu::BindGroup> {
         let kinds = bound_buffers(self.pass());
-        let shadow_depth =
-            self.description.reads_shadow_depth.then(|| (kinds.len() as u32, textures.view(TextureKind::ShadowDepth)));
-        buffers.bind(device, self.pass().name(), &self.layout, &kinds, shadow_depth)
+        let bind = |read: Option<&wgpu::TextureView>| {
+            let texture = read.map(|view| (kinds.len() as u32, view));
+            buffers.bind(device, self.pass().name(), &self.layout, &kinds, texture)
+        };
+        match (self.description.levels, self.description.reads) {
+            (Levels::AllButFirst, Some(kind)) => {
+                let levels = textures.levels(kind);
+                levels[..levels.len() - 1].iter().map(|finer| bind(Some(finer))).collect()
+            }
+            (_, read) => vec![bind(read.map(|kind| textures.view(kind)))],
+        }
     }
 
+    /// Records the pass, once for each level that it fills.
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        bind_group: &wgpu::BindGroup,
+        bind_groups: &[wgpu::BindGroup],
         (buffers, textures): (&Buffers, &Textures),
-        (counts, far_depth): (&ViewCounts, f32),
+        (counts, view): (&ViewCounts, &LightView),
         timer: &mut T,
     ) {
-        let name = self.description.pass.name();
-        let query = timer.begin(name, encoder);
-        {
-            let color = self.description.color.map(|target| {
-                Some(wgpu::RenderPassColorAttachment {
-                    view: textures.view(target.texture),
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(clear_color(target.clear, far_depth)),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })
-            });
-            let depth = self.description.depth.map(|target| wgpu::RenderPassDepthStencilAttachment {
-                view: textures.view(target.texture),
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: if target.is_kept { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard },
-                }),
-                stencil_ops: None,
-            });
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(name),
-                color_attachments: color.as_slice(),
-                depth_stencil_attachment: depth,
-                timestamp_writes: T::render_writes(&query),
-                occlusion_query_set: None,
-                multiview_mask: None,
-            });
-            pass.set_bind_group(0, bind_group, &[]);
-            for (count, pipeline) in self.description.draws.iter().zip(&self.pipelines) {
-                pass.set_pipeline(pipeline);
-                match *count {
-                    DrawCount::FaceItems => pass.draw(0..counts.face_items * BLOCK_SIZE * 3, 0..1),
-                    DrawCount::Indirect(index) => {
-                        let offset = u64::from(index) * size_of::<DrawArgs>() as u64;
-                        pass.draw_indirect(buffers.get(BufferKind::DrawArgs), offset);
-                    }
+        let first_level = if self.description.levels == Levels::First { 0 } else { 1 };
+        for (bind_group, level) in bind_groups.iter().zip(first_level..) {
+            let query = timer.begin(self.description.pass.name(), encoder);
+            self.encode_level(
+                encoder,
+                bind_group,
+                level,
+                (buffers, textures),
+                (counts, view),
+                T::render_writes(&query),
+            );
+            timer.end(query, encoder);
+        }
+    }
+
+    fn encode_level(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        bind_group: &wgpu::BindGroup,
+        level: usize,
+        (buffers, textures): (&Buffers, &Textures),
+        (counts, view): (&ViewCounts, &LightView),
+        timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        let color = self.description.color.map(|target| {
+            Some(wgpu::RenderPassColorAttachment {
+                view: &textures.levels(target.texture)[level],
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: load_color(target.clear, view), store: wgpu::StoreOp::Store },
+            })
+        });
+        let depth = self.description.depth.map(|target| wgpu::RenderPassDepthStencilAttachment {
+            view: textures.view(target.texture),
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(1.0),
+                store: if target.is_kept { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard },
+            }),
+            stencil_ops: None,
+        });
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(self.description.pass.name()),
+            color_attachments: color.as_slice(),
+            depth_stencil_attachment: depth,
+            timestamp_writes,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_bind_group(0, bind_group, &[]);
+        for (count, pipeline) in self.description.draws.iter().zip(&self.pipelines) {
+            pass.set_pipeline(pipeline);
+            match *count {
+                DrawCount::FaceItems => pass.draw(0..counts.face_items * BLOCK_SIZE * 3, 0..1),
+                DrawCount::FullScreen => pass.draw(0..3, 0..1),
+                DrawCount::Indirect(index) => {
+                    let offset = u64::from(index) * size_of::<DrawArgs>() as u64;
+                    pass.draw_indirect(buffers.get(BufferKind::DrawArgs), offset);
                 }
             }
         }
-        timer.end(query, encoder);
+    }
+}
+
+/// The format of a target that the plan lists, since it lists the pass that fills it.
+fn planned_format(plan: &FramePlan, kind: TextureKind) -> wgpu::TextureFormat {
+    match plan.texture(kind) {
+        Some(listed) => format(listed.format),
+        None => panic!("the frame plan lists no texture `{}` for a pass that fills it", kind.name()),
     }
 }
 
@@ -153,14 +188,16 @@ const MINIMUM: wgpu::BlendComponent = wgpu::BlendComponent {
 /// Alpha of a texel without a smoothie.
 const LIT: f64 = 1.0;
 
-fn clear_color(clear: ClearColor, far_depth: f32) -> wgpu::Color {
-    let far_depth = f64::from(far_depth);
+fn load_color(clear: ClearColor, view: &LightView) -> wgpu::LoadOp<wgpu::Color> {
+    let far_depth = f64::from(view.far_depth) / f64::from(view.depth_unit);
     let (r, g) = match clear {
+        // What is drawn over need not be loaded: a clear is cheaper.
+        ClearColor::Nothing => (0.0, 0.0),
         ClearColor::FarDepth => (far_depth, 0.0),
         ClearColor::Lit => (LIT, 0.0),
         ClearColor::FarDepthAndLit => (far_depth, LIT),
     };
-    wgpu::Color { r, g, b: 0.0, a: 0.0 }
+    wgpu::LoadOp::Clear(wgpu::Color { r, g, b: 0.0, a: 0.0 })
 }
 
 fn bind_group_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::BindGroupLayout {
@@ -178,13 +215,13 @@ fn bind_group_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::Bind
         },
         count: None,
     });
-    let shadow_depth = description.reads_shadow_depth.then_some(wgpu::BindGroupLayoutEntry {
+    let texture = description.reads.map(|_| wgpu::BindGroupLayoutEntry {
         binding: kinds.len() as u32,
         visibility: wgpu::ShaderStages::FRAGMENT,
         ty: UNFILTERED_FLOAT,
         count: None,
     });
-    let entries: Vec<_> = buffers.chain(shadow_depth).collect();
+    let entries: Vec<_> = buffers.chain(texture).collect();
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(description.pass.name()),
         entries: &entries,

@@ -2,11 +2,25 @@
 
 use std::collections::BTreeMap;
 
-use contrejour_plan::{BufferKind, FramePlan, TextureFormat, TextureKind};
+use contrejour_plan::{BufferKind, FramePlan, TextureFormat, TextureKind, TexturePlan};
 
 /// A texture that shaders load from without a sampler.
 pub(crate) const UNFILTERED_FLOAT: wgpu::BindingType = wgpu::BindingType::Texture {
     sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+/// A texture that shaders look up through a weighing sampler.
+pub(crate) const FILTERED_FLOAT: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: true },
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+/// A hardware depth buffer.
+pub(crate) const DEPTH: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Depth,
     view_dimension: wgpu::TextureViewDimension::D2,
     multisampled: false,
 };
@@ -82,12 +96,15 @@ pub(crate) fn binding_type(kind: BufferKind, read_only: bool) -> wgpu::BufferBin
     }
 }
 
-/// The format of a texture that the plan lists.
-pub(crate) fn format(kind: TextureKind) -> wgpu::TextureFormat {
-    match kind.format() {
+/// A format of the plan's in wgpu's words.
+pub(crate) fn format(format: TextureFormat) -> wgpu::TextureFormat {
+    match format {
         TextureFormat::R32Float => wgpu::TextureFormat::R32Float,
         TextureFormat::R16Float => wgpu::TextureFormat::R16Float,
+        TextureFormat::Rg16Float => wgpu::TextureFormat::Rg16Float,
         TextureFormat::Rg32Float => wgpu::TextureFormat::Rg32Float,
+        TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+        TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
         TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
     }
 }
@@ -108,51 +125,86 @@ fn usage(kind: BufferKind) -> wgpu::BufferUsages {
 /// The textures that the plan lists.
 #[derive(Debug, Default)]
 pub(crate) struct Textures {
-    by_kind: BTreeMap<TextureKind, (wgpu::Texture, wgpu::TextureView)>,
+    by_kind: BTreeMap<TextureKind, Map>,
+}
+
+/// A texture with views of it.
+#[derive(Debug)]
+struct Map {
+    texture: wgpu::Texture,
+    whole: wgpu::TextureView,
+    levels: Vec<wgpu::TextureView>,
+}
+
+impl Map {
+    fn new(device: &wgpu::Device, listed: &TexturePlan) -> Self {
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(listed.kind.name()),
+            size: wgpu::Extent3d { width: listed.size, height: listed.size, depth_or_array_layers: 1 },
+            mip_level_count: listed.levels,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: format(listed.format),
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let level = |level| wgpu::TextureViewDescriptor {
+            base_mip_level: level,
+            mip_level_count: Some(1),
+            ..Default::default()
+        };
+        let levels = (0..listed.levels).map(|index| texture.create_view(&level(index))).collect();
+        Self { whole: texture.create_view(&wgpu::TextureViewDescriptor::default()), levels, texture }
+    }
+
+    fn is(&self, listed: &TexturePlan) -> bool {
+        self.texture.width() == listed.size && self.texture.format() == format(listed.format)
+    }
 }
 
 impl Textures {
-    /// Makes what the plan lists and does not exist in that size, drops what it does not list; says whether anything
+    /// Makes what the plan lists and does not exist like that, drops what it does not list; says whether anything
     /// changed.
     pub fn follow(&mut self, device: &wgpu::Device, plan: &FramePlan) -> bool {
         let count = self.by_kind.len();
-        self.by_kind
-            .retain(|kind, (texture, _)| plan.texture(*kind).is_some_and(|listed| listed.size == texture.width()));
+        self.by_kind.retain(|kind, map| plan.texture(*kind).is_some_and(|listed| map.is(listed)));
         let mut changed = self.by_kind.len() != count;
         for listed in &plan.textures {
             self.by_kind.entry(listed.kind).or_insert_with(|| {
                 changed = true;
-                let texture = device.create_texture(&wgpu::TextureDescriptor {
-                    label: Some(listed.kind.name()),
-                    size: wgpu::Extent3d { width: listed.size, height: listed.size, depth_or_array_layers: 1 },
-                    mip_level_count: 1,
-                    sample_count: 1,
-                    dimension: wgpu::TextureDimension::D2,
-                    format: format(listed.kind),
-                    usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                        | wgpu::TextureUsages::TEXTURE_BINDING
-                        | wgpu::TextureUsages::COPY_SRC,
-                    view_formats: &[],
-                });
-                let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-                (texture, view)
+                Map::new(device, listed)
             });
         }
         changed
     }
 
     pub fn find(&self, kind: TextureKind) -> Option<&wgpu::Texture> {
-        self.by_kind.get(&kind).map(|(texture, _)| texture)
+        self.by_kind.get(&kind).map(|map| &map.texture)
     }
 
-    /// The view of a texture that the plan lists, since it lists a pass that uses it.
+    /// The whole of a texture that the plan lists, since it lists a pass that uses it.
     ///
     /// # Panics
     ///
     /// When the plan lists a pass without its textures: a defect of the plan, which its tests rule out.
     pub fn view(&self, kind: TextureKind) -> &wgpu::TextureView {
+        &self.get(kind).whole
+    }
+
+    /// Each level of a texture that the plan lists.
+    ///
+    /// # Panics
+    ///
+    /// As [`view`](Self::view).
+    pub fn levels(&self, kind: TextureKind) -> &[wgpu::TextureView] {
+        &self.get(kind).levels
+    }
+
+    fn get(&self, kind: TextureKind) -> &Map {
         match self.by_kind.get(&kind) {
-            Some((_, view)) => view,
+            Some(map) => map,
             None => panic!("the frame plan lists no texture `{}` for a pass that uses it", kind.name()),
         }
     }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use contrejour_layout::{CasterLight, Counters};
 use contrejour_mesh::TopologyAwareMesh;
-use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, TextureKind};
+use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, TextureKind, VisibilityKind};
 
 use crate::casters::CasterSet;
 use crate::draft::{FrameDraft, LiveCopy, Records};
@@ -15,7 +15,8 @@ use crate::inputs::{FrameInput, FrameStats, Maps, ShadowOptions, device_facts};
 use crate::pool::{MeshHandle, MeshPool};
 use crate::readback::CounterReadback;
 use crate::timer::PassTimer;
-use crate::visibility::{EyeInput, Visibility, VisibilityKind};
+use crate::visibility::{EyeInput, Visibility};
+use crate::visibility_wgsl::visibility_wgsl;
 
 /// Silhouettes and shadow maps of one light.
 #[derive(Debug)]
@@ -43,9 +44,10 @@ impl Shadows {
         wgpu::Features::empty()
     }
 
-    /// Features that the library uses where the device was created with them: blending of 32-bit floats saves a pass.
+    /// Features that the library uses where the device was created with them: blending of 32-bit floats saves a pass,
+    /// and where samplers weigh them variance shadow maps are exact.
     pub fn optional_features() -> wgpu::Features {
-        wgpu::Features::FLOAT32_BLENDABLE
+        wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE
     }
 
     /// Limits that the library needs: WebGPU's defaults.
@@ -126,7 +128,7 @@ impl Shadows {
             encoder.copy_buffer_to_buffer(&copy.source, copy.source_offset, target, copy.target_offset, copy.size);
         }
         self.is_encoded = true;
-        self.frame.encode(encoder, &plan.counts, self.records.light_view.far_depth, timer);
+        self.frame.encode(encoder, &plan.counts, &self.records.light_view, timer);
         if let Some(counters) = self.frame.buffers.find(BufferKind::Counters) {
             self.readback.copy(encoder, counters, plan.capacity());
         }
@@ -171,7 +173,7 @@ impl Shadows {
     ///
     /// As [`visibility_kind`](Self::visibility_kind).
     pub fn visibility_wgsl(&self, group: u32) -> String {
-        format!("const CONTREJOUR_GROUP = {group}u;\n{}", self.visibility_kind().function_wgsl())
+        visibility_wgsl(self.visibility_kind(), group)
     }
 
     /// Layout of [`visibility_bind_group`](Self::visibility_bind_group).
@@ -204,6 +206,8 @@ impl Shadows {
         let find = |kind| self.frame.textures.find(kind);
         Maps {
             shadow_depth: find(TextureKind::ShadowDepth),
+            shadow_hardware_depth: find(TextureKind::ShadowHardwareDepth),
+            moments: find(TextureKind::Moments),
             smoothie_depth: find(TextureKind::SmoothieDepth),
             smoothie_alpha: find(TextureKind::SmoothieAlpha),
             smoothie_buffer: find(TextureKind::SmoothieBuffer),
@@ -299,7 +303,7 @@ impl Shadows {
 
     fn follow_visibility(&mut self, device: &wgpu::Device, plan: &FramePlan, made: &Made) {
         let Frame { buffers, textures, .. } = &self.frame;
-        let kind = VisibilityKind::of(plan);
+        let kind = plan.visibility;
         if self.visibility.as_ref().map(|visibility| visibility.kind) != kind {
             self.visibility = kind.map(|kind| Visibility::new(device, kind, buffers, textures));
         } else if let Some(visibility) = &mut self.visibility

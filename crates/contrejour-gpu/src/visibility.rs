@@ -2,100 +2,80 @@
 //! for deferred ones.
 
 use contrejour_layout::EyeView;
-use contrejour_plan::{BufferKind, FramePlan, Pass, TextureKind};
+use contrejour_plan::{BufferKind, MapSampler, TextureKind, VisibilityKind};
 
-use crate::passes;
-use crate::resources::{Buffers, Textures, UNFILTERED_FLOAT};
+use crate::resources::{Buffers, DEPTH, FILTERED_FLOAT, Textures, UNFILTERED_FLOAT};
 use crate::timer::PassTimer;
+use crate::visibility_wgsl::pass_wgsl;
 
-/// Which maps the visibility function reads. Where it changes, the function's text and its bind group layout do: a
-/// caller keeps one pipeline for each kind that it meets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum VisibilityKind {
-    /// The shadow map alone.
-    ShadowMap,
-    /// Shadow map, smoothie depth and smoothie alpha.
-    SmoothiesSplit,
-    /// Shadow map and smoothie buffer.
-    SmoothiesPacked,
+/// The layout of a kind's bind group: the receiver view, the maps, a sampler.
+fn layout(device: &wgpu::Device, kind: VisibilityKind) -> wgpu::BindGroupLayout {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        ty,
+        count: None,
+    };
+    let maps = kind.textures().iter().map(|map| match map {
+        TextureKind::ShadowHardwareDepth | TextureKind::SmoothieDepth => DEPTH,
+        // Moments are of a format that the device's samplers weigh: the plan chose it so.
+        TextureKind::Moments => FILTERED_FLOAT,
+        _ => UNFILTERED_FLOAT,
+    });
+    let sampler = kind.sampler().map(|sampler| {
+        wgpu::BindingType::Sampler(match sampler {
+            MapSampler::CompareNearest | MapSampler::CompareLinear => wgpu::SamplerBindingType::Comparison,
+            MapSampler::Trilinear => wgpu::SamplerBindingType::Filtering,
+        })
+    });
+    let types = std::iter::once(UNIFORM).chain(maps).chain(sampler);
+    let entries: Vec<_> = types.zip(0..).map(|(ty, binding)| entry(binding, ty)).collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("contrejour visibility"),
+        entries: &entries,
+    })
 }
 
-impl VisibilityKind {
-    /// What a frame's visibility function reads; `None` where the frame has no maps.
-    pub(crate) fn of(plan: &FramePlan) -> Option<Self> {
-        if plan.has_pass(Pass::SmoothieBuffer) {
-            Some(Self::SmoothiesPacked)
-        } else if plan.has_pass(Pass::SmoothieAlpha) {
-            Some(Self::SmoothiesSplit)
-        } else {
-            plan.has_pass(Pass::ShadowMap).then_some(Self::ShadowMap)
-        }
-    }
+fn bind(
+    device: &wgpu::Device,
+    kind: VisibilityKind,
+    layout: &wgpu::BindGroupLayout,
+    sampler: Option<&wgpu::Sampler>,
+    (buffers, textures): (&Buffers, &Textures),
+) -> wgpu::BindGroup {
+    let view = buffers.get(BufferKind::ReceiverView).as_entire_binding();
+    let maps = kind.textures().iter().map(|map| wgpu::BindingResource::TextureView(textures.view(*map)));
+    let sampler = sampler.map(wgpu::BindingResource::Sampler);
+    let resources = std::iter::once(view).chain(maps).chain(sampler);
+    let entries: Vec<_> =
+        resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource }).collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("contrejour visibility"),
+        layout,
+        entries: &entries,
+    })
+}
 
-    fn textures(self) -> &'static [TextureKind] {
-        match self {
-            Self::ShadowMap => &[TextureKind::ShadowDepth],
-            Self::SmoothiesSplit => &[TextureKind::ShadowDepth, TextureKind::SmoothieDepth, TextureKind::SmoothieAlpha],
-            Self::SmoothiesPacked => &[TextureKind::ShadowDepth, TextureKind::SmoothieBuffer],
-        }
-    }
-
-    /// The function `contrejour_visibility`; needs a constant `CONTREJOUR_GROUP` beside it.
-    pub(crate) fn function_wgsl(self) -> &'static str {
-        match self {
-            Self::ShadowMap => passes::VISIBILITY_SHADOW_MAP,
-            Self::SmoothiesSplit => passes::VISIBILITY_SMOOTHIES_SPLIT,
-            Self::SmoothiesPacked => passes::VISIBILITY_SMOOTHIES_PACKED,
-        }
-    }
-
-    fn pass_wgsl(self) -> &'static str {
-        match self {
-            Self::ShadowMap => passes::VISIBILITY_PASS_SHADOW_MAP,
-            Self::SmoothiesSplit => passes::VISIBILITY_PASS_SPLIT,
-            Self::SmoothiesPacked => passes::VISIBILITY_PASS_PACKED,
-        }
-    }
-
-    fn layout(self, device: &wgpu::Device) -> wgpu::BindGroupLayout {
-        let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-            ty,
-            count: None,
-        };
-        let textures = self.textures().iter().zip(1..).map(|(kind, binding)| match kind {
-            TextureKind::SmoothieDepth => entry(binding, DEPTH),
-            _ => entry(binding, UNFILTERED_FLOAT),
-        });
-        let entries: Vec<_> = std::iter::once(entry(0, UNIFORM)).chain(textures).collect();
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("contrejour visibility"),
-            entries: &entries,
-        })
-    }
-
-    fn bind(
-        self,
-        device: &wgpu::Device,
-        layout: &wgpu::BindGroupLayout,
-        buffers: &Buffers,
-        textures: &Textures,
-    ) -> wgpu::BindGroup {
-        let view =
-            wgpu::BindGroupEntry { binding: 0, resource: buffers.get(BufferKind::ReceiverView).as_entire_binding() };
-        let textures = self.textures().iter().zip(1..).map(|(kind, binding)| wgpu::BindGroupEntry {
-            binding,
-            resource: wgpu::BindingResource::TextureView(textures.view(*kind)),
-        });
-        let entries: Vec<_> = std::iter::once(view).chain(textures).collect();
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("contrejour visibility"),
-            layout,
-            entries: &entries,
-        })
-    }
+fn create_sampler(device: &wgpu::Device, sampler: MapSampler) -> wgpu::Sampler {
+    let filter = match sampler {
+        MapSampler::CompareNearest => wgpu::FilterMode::Nearest,
+        MapSampler::CompareLinear | MapSampler::Trilinear => wgpu::FilterMode::Linear,
+    };
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("contrejour map"),
+        mag_filter: filter,
+        min_filter: filter,
+        mipmap_filter: match sampler {
+            MapSampler::Trilinear => wgpu::MipmapFilterMode::Linear,
+            _ => wgpu::MipmapFilterMode::Nearest,
+        },
+        compare: match sampler {
+            MapSampler::Trilinear => None,
+            // A receiver as deep as its own texel is lit.
+            _ => Some(wgpu::CompareFunction::LessEqual),
+        },
+        ..Default::default()
+    })
 }
 
 /// The visibility function of the current plan, bound.
@@ -104,19 +84,21 @@ pub(crate) struct Visibility {
     pub kind: VisibilityKind,
     pub layout: wgpu::BindGroupLayout,
     pub bind_group: wgpu::BindGroup,
+    sampler: Option<wgpu::Sampler>,
     pass: Option<VisibilityPass>,
 }
 
 impl Visibility {
     pub fn new(device: &wgpu::Device, kind: VisibilityKind, buffers: &Buffers, textures: &Textures) -> Self {
-        let layout = kind.layout(device);
-        let bind_group = kind.bind(device, &layout, buffers, textures);
-        Self { kind, layout, bind_group, pass: None }
+        let layout = layout(device, kind);
+        let sampler = kind.sampler().map(|sampler| create_sampler(device, sampler));
+        let bind_group = bind(device, kind, &layout, sampler.as_ref(), (buffers, textures));
+        Self { kind, layout, bind_group, sampler, pass: None }
     }
 
     /// Binds maps that were made anew.
     pub fn bind_again(&mut self, device: &wgpu::Device, buffers: &Buffers, textures: &Textures) {
-        self.bind_group = self.kind.bind(device, &self.layout, buffers, textures);
+        self.bind_group = bind(device, self.kind, &self.layout, self.sampler.as_ref(), (buffers, textures));
     }
 
     /// The full-screen pass, made when it is first used.
@@ -130,12 +112,6 @@ const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Uniform,
     has_dynamic_offset: false,
     min_binding_size: None,
-};
-
-const DEPTH: wgpu::BindingType = wgpu::BindingType::Texture {
-    sample_type: wgpu::TextureSampleType::Depth,
-    view_dimension: wgpu::TextureViewDimension::D2,
-    multisampled: false,
 };
 
 /// The eye's view of a deferred renderer, for [`Shadows::encode_visibility`](crate::Shadows::encode_visibility).
@@ -186,7 +162,7 @@ impl VisibilityPass {
         });
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label,
-            source: wgpu::ShaderSource::Wgsl(kind.pass_wgsl().into()),
+            source: wgpu::ShaderSource::Wgsl(pass_wgsl(kind).into()),
         });
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label,

@@ -1,5 +1,7 @@
 //! Shader text, joined at compile time.
 
+use std::borrow::Cow;
+
 /// Joins a file of `shaders/` with files of `shaders/shared/`.
 macro_rules! wgsl {
     ($file:literal $(, $shared:literal)* $(,)?) => {
@@ -12,10 +14,16 @@ macro_rules! wgsl {
 pub(crate) use wgsl;
 
 /// One shader module.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ShaderModule {
     /// The stem of its own file; a variant adds `+` and what it is joined with.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Its whole text.
-    pub wgsl: &'static str,
+    pub wgsl: Cow<'static, str>,
+}
+
+impl ShaderModule {
+    pub(crate) const fn of(name: &'static str, wgsl: &'static str) -> Self {
+        Self { name: Cow::Borrowed(name), wgsl: Cow::Borrowed(wgsl) }
+    }
 }

@@ -62,8 +62,16 @@ shared_struct! {
         bias_smoothie_texels: f32,
         /// World size of a texel at depth 1 (perspective) or at any depth (orthographic).
         texel_world: f32,
+        /// Depth that 1 stands for in the shadow map and in the smoothie buffer.
+        depth_unit: f32,
+        /// Exponent of the moments' warp; 0 where depth is not warped.
+        warp_exponent: f32,
         /// Zero.
         unused_0: u32,
+        /// Zero.
+        unused_1: u32,
+        /// Zero.
+        unused_2: u32,
     }
 }
 
@@ -74,8 +82,6 @@ shared_struct! {
         light_clip_from_world: [f32; 16],
         /// The light in world space: position and 1, or direction towards the light and 0.
         light_world: [f32; 4],
-        /// Unit direction of the view's axis in world space, away from the light; w is zero.
-        axis_world: [f32; 4],
         /// 1 for a perspective view, 0 for an orthographic one.
         perspective: u32,
         /// Texels along a side of the square maps.
@@ -92,6 +98,30 @@ shared_struct! {
         bias_slope_texels: f32,
         /// Normal offset, in texel footprints.
         bias_normal_texels: f32,
+        /// Depth that 1 stands for in the shadow map and in the smoothie buffer.
+        depth_unit: f32,
+        /// Clip z is `q * ndc_scale + ndc_offset` after the division by w.
+        ndc_scale: f32,
+        /// See `ndc_scale`.
+        ndc_offset: f32,
+        /// Half the light's size on the image plane: NDC per unit of q between blocker and receiver.
+        light_size: f32,
+        /// Largest radius in which blockers are searched, in NDC.
+        search_max_ndc: f32,
+        /// Radius of the disk over which moments are averaged, in texels.
+        blur_texels: f32,
+        /// Visibility up to which light is taken for bleeding, 0 to 1.
+        bleed_cut: f32,
+        /// Smallest variance of depth, as a share of the view's depth range squared.
+        min_variance: f32,
+        /// Exponent of the moments' warp; 0 where depth is not warped.
+        warp_exponent: f32,
+        /// Zero.
+        unused_0: u32,
+        /// Zero.
+        unused_1: u32,
+        /// Zero.
+        unused_2: u32,
     }
 }
 

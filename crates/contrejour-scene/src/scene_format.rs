@@ -81,14 +81,31 @@
 //! | Key | Value | Default |
 //! | --- | --- | --- |
 //! | `preset` | `"low"`, `"medium"`, `"high"` or `"ultra"`: where the other defaults come from | `"medium"` |
-//! | `technique` | `"smoothies"` or `"shadow-map"` | `"smoothies"` |
+//! | `technique` | `"shadow-map"`, `"pcf"`, `"gaussian-pcf"`, `"bicubic-pcf"`, `"pcss"`, `"vsm"`, `"evsm"`, `"vsm-pcss"`, `"evsm-pcss"` or `"smoothies"`; see [`Technique`](contrejour_plan::Technique) | `"smoothies"` |
 //! | `map_size` | texels along a side of the maps, 1 to 16384 | the preset's |
+//! | `depth_bits` | `16` or `32`: how exactly the maps keep linear depth | `32` |
+//! | `bias_constant_texels`, `bias_slope_texels`, `bias_normal_texels`, `bias_smoothie_texels` | depth biases, 0 and up; see [`DepthBias`](contrejour_plan::DepthBias) | the preset's |
+//!
+//! Smoothies have these keys too:
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
 //! | `width_ndc` | width of the smoothies on the map, whose side is 2; more than 0, up to 2 | from the light's size |
 //! | `width_max_ndc` | largest width of the smoothies; more than 0, up to 2 | the preset's |
 //! | `remap` | `"contact"`: soft edges harden at the contact; `"off"`: they do not, for comparison | `"contact"` |
-//! | `bias_constant_texels`, `bias_slope_texels`, `bias_normal_texels`, `bias_smoothie_texels` | depth biases, 0 and up; see [`DepthBias`](contrejour_plan::DepthBias) | the preset's |
 //!
-//! `width_ndc`, `width_max_ndc`, `remap` and `bias_smoothie_texels` belong to smoothies, and are refused without them.
+//! Others:
+//!
+//! | Key | Techniques | Value | Default |
+//! | --- | --- | --- | --- |
+//! | `kernel` | `gaussian-pcf` | texels along the filter's side: 3, 5 or 7 | `5` |
+//! | `blocker_samples`, `filter_samples` | `pcss` | look-ups, 1 to 1024 | `16`, `32` |
+//! | `search_max_ndc` | `pcss`, `vsm-pcss`, `evsm-pcss` | largest radius of the search for blockers; more than 0, up to 2 | `0.2` |
+//! | `blur_texels` | `vsm`, `evsm` | radius of the blur, 0 to 1024 | `4` |
+//! | `warp_exponent` | `evsm`, `evsm-pcss` | exponent of the warp, more than 0, up to 42 | `40` |
+//! | `bleed_cut`, `min_variance` | the four | see [`VarianceSettings`](contrejour_plan::VarianceSettings) | there |
+//!
+//! A key of another technique than the one that is named is refused.
 //!
 //! # `[[mesh]]`
 //!

@@ -3,6 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use contrejour_gpu::shaders::visibility_wgsl;
+use contrejour_plan::VisibilityKind;
+
+/// The renderer's bind group for the light's maps.
+const SHADE_VISIBILITY_GROUP: u32 = 2;
+
 /// A module's name and whole text.
 pub struct Module {
     pub name: String,
@@ -39,17 +45,10 @@ pub fn all() -> Vec<Module> {
     let library = contrejour_gpu::shaders::all();
     let mut modules: Vec<_> =
         library.map(|module| Module { name: module.name.into(), wgsl: module.wgsl.into() }).collect();
-    for variant in [
-        &["visibility_shadow_map"][..],
-        &["visibility_smoothies", "smoothie_split"],
-        &["visibility_smoothies", "smoothie_packed"],
-    ] {
-        let shared = ["receiver", "receiver_lookup"].iter().chain(variant);
-        let shared = shared.map(|name| shader_file(&format!("shared/{name}.wgsl")));
-        // As the library's `visibility_wgsl` writes it for the renderer's bind group.
-        let own = [shader_file("raster/shade.wgsl"), "const CONTREJOUR_GROUP = 2u;".into()];
-        let files: Vec<_> = own.into_iter().chain(shared).collect();
-        modules.push(Module { name: format!("shade+{}", variant.join("+")), wgsl: files.join("\n") });
+    let shade = shader_file("raster/shade.wgsl");
+    for kind in VisibilityKind::examples() {
+        let visibility = visibility_wgsl(kind, SHADE_VISIBILITY_GROUP);
+        modules.push(Module { name: format!("shade+{kind:?}"), wgsl: format!("{shade}\n{visibility}") });
     }
     modules.push(Module { name: "silhouette_lines".into(), wgsl: shader_file("raster/silhouette_lines.wgsl") });
     modules

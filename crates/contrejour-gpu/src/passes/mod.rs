@@ -1,5 +1,8 @@
 //! The raster passes that fill a light view's maps: what each runs, binds and writes.
 
+mod blurred_moments;
+mod hardware_shadow_map;
+mod moments;
 mod shadow_map;
 mod smoothie_alpha;
 mod smoothie_buffer;
@@ -10,17 +13,19 @@ use contrejour_plan::{Pass, TextureKind};
 use crate::wgsl::{ShaderModule, wgsl};
 
 /// A pass over a light view's maps. It binds [`Pass::buffers`] in their order, but for the draw arguments; then the
-/// shadow map's linear depth where it reads that. Entry points and override constants are the plan's.
+/// texture that it reads. Entry points and override constants are the plan's.
 #[derive(Clone, Copy, Debug)]
 pub struct MapPass {
     /// Which pass this is.
     pub pass: Pass,
     /// The text of its shader module.
     pub wgsl: &'static str,
-    /// Whether its fragments read the linear depth of the shadow map.
-    pub reads_shadow_depth: bool,
+    /// The texture that its fragments read.
+    pub reads: Option<TextureKind>,
     /// Where the number of vertices of each of its draws comes from.
     pub draws: &'static [DrawCount],
+    /// The levels of its target that it fills.
+    pub levels: Levels,
     /// Colour target.
     pub color: Option<ColorTarget>,
     /// Depth buffer: nearest wins.
@@ -34,6 +39,17 @@ pub enum DrawCount {
     FaceItems,
     /// An entry of the indirect draw arguments.
     Indirect(u32),
+    /// One triangle.
+    FullScreen,
+}
+
+/// The levels of a target that a pass fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Levels {
+    /// The first, which is the only one of most textures.
+    First,
+    /// One after the other all but the first, each from the one before it.
+    AllButFirst,
 }
 
 /// A colour target of a pass.
@@ -50,6 +66,8 @@ pub struct ColorTarget {
 /// What a colour target is cleared to.
 #[derive(Clone, Copy, Debug)]
 pub enum ClearColor {
+    /// Nothing that matters: every texel is drawn.
+    Nothing,
     /// The farthest depth of the view.
     FarDepth,
     /// Alpha of no smoothie.
@@ -68,42 +86,26 @@ pub struct DepthTarget {
 }
 
 /// All passes over a light view's maps, in the order in which a frame runs them.
-pub const ALL: [MapPass; 4] = [
+pub const ALL: [MapPass; 7] = [
+    hardware_shadow_map::HARDWARE_SHADOW_MAP,
     shadow_map::SHADOW_MAP,
+    moments::MOMENTS,
+    blurred_moments::BLURRED_MOMENTS,
     smoothie_depth::SMOOTHIE_DEPTH,
     smoothie_alpha::SMOOTHIE_ALPHA,
     smoothie_buffer::SMOOTHIE_BUFFER,
 ];
 
+const SHADOW_MAP_WGSL: &str = wgsl!("raster/shadow_map", "topology", "light", "caster_position", "view_depth");
+
 const SMOOTHIE_WGSL: &str = wgsl!("raster/smoothie_buffer", "light", "args", "outline", "view_depth");
 
 const SMOOTHIE_DRAWS: &[DrawCount] = &[DrawCount::Indirect(0), DrawCount::Indirect(1)];
 
-/// The visibility function by the shadow map alone.
-pub(crate) const VISIBILITY_SHADOW_MAP: &str = wgsl!("shared/receiver_lookup", "receiver", "visibility_shadow_map");
-
-/// The visibility function by shadow map and smoothie buffer in two textures.
-pub(crate) const VISIBILITY_SMOOTHIES_SPLIT: &str =
-    wgsl!("shared/receiver_lookup", "receiver", "visibility_smoothies", "smoothie_split");
-
-/// The visibility function by shadow map and smoothie buffer in one texture.
-pub(crate) const VISIBILITY_SMOOTHIES_PACKED: &str =
-    wgsl!("shared/receiver_lookup", "receiver", "visibility_smoothies", "smoothie_packed");
-
-/// The full-screen pass, to be joined with one of the visibility functions.
-macro_rules! visibility_pass {
-    ($($shared:literal),*) => { wgsl!("raster/visibility", "eye", "receiver", "receiver_lookup", $($shared),*) };
-}
-
-pub(crate) const VISIBILITY_PASS_SHADOW_MAP: &str = visibility_pass!("visibility_shadow_map");
-pub(crate) const VISIBILITY_PASS_SPLIT: &str = visibility_pass!("visibility_smoothies", "smoothie_split");
-pub(crate) const VISIBILITY_PASS_PACKED: &str = visibility_pass!("visibility_smoothies", "smoothie_packed");
-
-/// The shader modules of all raster passes.
+/// The shader modules of the raster passes, those of one text once.
 pub(crate) const MODULES: &[ShaderModule] = &[
-    ShaderModule { name: "shadow_map", wgsl: shadow_map::SHADOW_MAP.wgsl },
-    ShaderModule { name: "smoothie_buffer", wgsl: SMOOTHIE_WGSL },
-    ShaderModule { name: "visibility+shadow_map", wgsl: VISIBILITY_PASS_SHADOW_MAP },
-    ShaderModule { name: "visibility+smoothie_split", wgsl: VISIBILITY_PASS_SPLIT },
-    ShaderModule { name: "visibility+smoothie_packed", wgsl: VISIBILITY_PASS_PACKED },
+    ShaderModule::of("shadow_map", SHADOW_MAP_WGSL),
+    ShaderModule::of("moments", moments::MOMENTS.wgsl),
+    ShaderModule::of("blurred_moments", blurred_moments::BLURRED_MOMENTS.wgsl),
+    ShaderModule::of("smoothie_buffer", SMOOTHIE_WGSL),
 ];

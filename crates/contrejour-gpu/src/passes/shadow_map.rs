@@ -1,14 +1,14 @@
 use contrejour_plan::{Pass, TextureKind};
 
-use super::{ClearColor, ColorTarget, DepthTarget, DrawCount, MapPass};
-use crate::wgsl::wgsl;
+use super::{ClearColor, ColorTarget, DepthTarget, DrawCount, Levels, MapPass, SHADOW_MAP_WGSL};
 
-/// Hardware depth and linear depth of every caster.
+/// Linear depth of every caster, by the hardware's depth test.
 pub(super) const SHADOW_MAP: MapPass = MapPass {
     pass: Pass::ShadowMap,
-    wgsl: wgsl!("raster/shadow_map", "topology", "light", "caster_position", "view_depth"),
-    reads_shadow_depth: false,
+    wgsl: SHADOW_MAP_WGSL,
+    reads: None,
     draws: &[DrawCount::FaceItems],
+    levels: Levels::First,
     color: Some(ColorTarget { texture: TextureKind::ShadowDepth, clear: ClearColor::FarDepth, minimum: false }),
     depth: Some(DepthTarget { texture: TextureKind::ShadowHardwareDepth, is_kept: false }),
 };

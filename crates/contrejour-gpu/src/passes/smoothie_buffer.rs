@@ -1,13 +1,14 @@
 use contrejour_plan::{Pass, TextureKind};
 
-use super::{ClearColor, ColorTarget, MapPass, SMOOTHIE_DRAWS, SMOOTHIE_WGSL};
+use super::{ClearColor, ColorTarget, Levels, MapPass, SMOOTHIE_DRAWS, SMOOTHIE_WGSL};
 
-/// Nearest smoothie depth and least alpha at once, where the device blends 32-bit floats.
+/// Nearest smoothie depth and least alpha at once, where the device blends floats of the buffer's size.
 pub(super) const SMOOTHIE_BUFFER: MapPass = MapPass {
     pass: Pass::SmoothieBuffer,
     wgsl: SMOOTHIE_WGSL,
-    reads_shadow_depth: true,
+    reads: Some(TextureKind::ShadowDepth),
     draws: SMOOTHIE_DRAWS,
+    levels: Levels::First,
     color: Some(ColorTarget { texture: TextureKind::SmoothieBuffer, clear: ClearColor::FarDepthAndLit, minimum: true }),
     depth: None,
 };

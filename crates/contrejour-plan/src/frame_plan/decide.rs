@@ -1,10 +1,19 @@
 //! Decides what a frame runs and who casts in it, and writes down what that leaves out.
 
 use super::{LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
-use crate::{SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
+use crate::{DepthPrecision, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
 
 /// Texels by which a frustum is widened for filters and for rounding.
 const GUARD_TEXELS: f64 = 2.0;
+
+/// The passes that one technique or another can do without, smoothies apart, and why.
+const MAP_PASSES: [Pass; 4] = [Pass::HardwareShadowMap, Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments];
+const WITHOUT_MAP_PASS: [Reason; 4] = [
+    Reason::LinearDepthIsRead,
+    Reason::HardwareDepthIsEnough,
+    Reason::TechniqueHasNoMoments,
+    Reason::TechniqueHasNoMoments,
+];
 
 /// What was left out so far.
 #[derive(Default)]
@@ -28,14 +37,14 @@ impl LeftOutList {
 pub(super) fn smoothies_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList) -> Option<SmoothieSettings> {
     let reason = match input.settings.technique {
         _ if input.outputs == Outputs::Silhouettes => Reason::OnlySilhouettesWanted,
-        Technique::ShadowMap => Reason::TechniqueIsShadowMap,
-        _ if nothing_casts(input.scene) => Reason::NothingCasts,
+        Technique::Smoothies(_) if nothing_casts(input.scene) => Reason::NothingCasts,
         Technique::Smoothies(smoothies) => {
             if smoothies.width != SmoothieWidth::FromLightSize || input.view.light_size > 0.0 {
                 return Some(smoothies);
             }
             Reason::LightHasNoSize
         }
+        _ => Reason::TechniqueHasNoSmoothies,
     };
     left_out.add(Omitted::ExtrusionStages, reason);
     left_out.add(Omitted::SmoothiePasses, reason);
@@ -68,25 +77,30 @@ pub(super) fn passes(
     left_out: &mut LeftOutList,
 ) -> Vec<Pass> {
     if input.outputs == Outputs::Silhouettes {
-        left_out.add(Omitted::Pass(Pass::ShadowMap), Reason::OnlySilhouettesWanted);
-        left_out.add(Omitted::Pass(Pass::Visibility), Reason::OnlySilhouettesWanted);
+        for pass in MAP_PASSES.into_iter().chain([Pass::Visibility]) {
+            left_out.add(Omitted::Pass(pass), Reason::OnlySilhouettesWanted);
+        }
         return Vec::new();
     }
-    // Without casters too: it clears the map that receivers look up.
-    let mut passes = vec![Pass::ShadowMap];
+    // The shadow map without casters too: it clears the map that receivers look up.
+    let mut passes = Vec::new();
     if let Some(smoothies) = smoothies {
-        let two_passes = match smoothies.blend {
-            SmoothieBlend::TwoPasses => Some(Reason::TwoPassesAskedFor),
-            SmoothieBlend::BestOfDevice if input.device.float32_blendable => None,
-            SmoothieBlend::BestOfDevice => Some(Reason::DeviceBlendsNoFloats),
-        };
-        if let Some(reason) = two_passes {
-            passes.extend([Pass::SmoothieDepth, Pass::SmoothieAlpha]);
-            left_out.add(Omitted::Pass(Pass::SmoothieBuffer), reason);
-        } else {
-            passes.push(Pass::SmoothieBuffer);
-            left_out.add(Omitted::Pass(Pass::SmoothieDepth), Reason::DeviceBlendsFloats);
-            left_out.add(Omitted::Pass(Pass::SmoothieAlpha), Reason::DeviceBlendsFloats);
+        passes.push(Pass::ShadowMap);
+        passes.extend(smoothie_passes(input, smoothies, left_out));
+    } else if let Technique::Variance(_) = input.settings.technique {
+        passes.extend([Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments]);
+        if !input.device.float32_filterable {
+            left_out.add(Omitted::FullMoments, Reason::DeviceFiltersNoFloats);
+        }
+    } else {
+        passes.push(Pass::HardwareShadowMap);
+        if matches!(input.settings.technique, Technique::Pcss(_)) && input.view.light_size == 0.0 {
+            left_out.add(Omitted::BlockerSearch, Reason::LightHasNoSize);
+        }
+    }
+    for (pass, reason) in MAP_PASSES.into_iter().zip(WITHOUT_MAP_PASS) {
+        if !passes.contains(&pass) {
+            left_out.add(Omitted::Pass(pass), reason);
         }
     }
     if input.outputs == Outputs::VisibilityTexture {
@@ -95,6 +109,24 @@ pub(super) fn passes(
         left_out.add(Omitted::Pass(Pass::Visibility), Reason::NoVisibilityTextureWanted);
     }
     passes
+}
+
+/// The passes that fill the smoothie buffer.
+fn smoothie_passes(input: &PlanInput<'_>, smoothies: &SmoothieSettings, left_out: &mut LeftOutList) -> &'static [Pass] {
+    let halves = input.settings.depth_precision == DepthPrecision::Bits16;
+    let two_passes = match smoothies.blend {
+        SmoothieBlend::TwoPasses => Some(Reason::TwoPassesAskedFor),
+        SmoothieBlend::BestOfDevice if halves || input.device.float32_blendable => None,
+        SmoothieBlend::BestOfDevice => Some(Reason::DeviceBlendsNoFloats),
+    };
+    if let Some(reason) = two_passes {
+        left_out.add(Omitted::Pass(Pass::SmoothieBuffer), reason);
+        return &[Pass::SmoothieDepth, Pass::SmoothieAlpha];
+    }
+    let reason = if halves { Reason::HalvesBlend } else { Reason::DeviceBlendsFloats };
+    left_out.add(Omitted::Pass(Pass::SmoothieDepth), reason);
+    left_out.add(Omitted::Pass(Pass::SmoothieAlpha), reason);
+    &[Pass::SmoothieBuffer]
 }
 
 /// Indices of the casters that have work items.

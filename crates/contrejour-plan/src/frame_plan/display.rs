@@ -35,6 +35,7 @@ impl fmt::Display for FramePlan {
         let texture_bytes: u64 = self.textures.iter().map(|texture| texture.bytes).sum();
         let textures = self.textures.iter().map(|texture| {
             let texels = format!("{0} x {0} {1}", texture.size, texture.format.name());
+            let texels = if texture.levels > 1 { format!("{texels}, {} levels", texture.levels) } else { texels };
             [texture.kind.name().to_owned(), texels, human(texture.bytes)]
         });
         write_table(formatter, &format!("textures, {} together", human(texture_bytes)), textures)?;
@@ -47,7 +48,10 @@ fn pipeline_row(pipeline: &PipelinePlan) -> [String; 3] {
     let constants: Vec<_> = pipeline.constants.iter().map(|(name, value)| format!("{name} = {value}")).collect();
     let (runs, starts) = match pipeline.entry_points {
         EntryPoints::Compute(stage) => (stage.name(), stage.name().to_owned()),
-        EntryPoints::Raster { pass, vertex, fragment } => (pass.name(), format!("{vertex} + {fragment}")),
+        EntryPoints::Raster { pass, vertex, fragment } => match fragment {
+            Some(fragment) => (pass.name(), format!("{vertex} + {fragment}")),
+            None => (pass.name(), vertex.to_owned()),
+        },
     };
     [runs.to_owned(), starts, constants.join(", ")]
 }

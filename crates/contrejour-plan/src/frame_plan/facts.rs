@@ -51,6 +51,8 @@ pub struct SceneFacts {
 pub struct DeviceFacts {
     /// Whether it blends 32-bit float targets. Default: no.
     pub float32_blendable: bool,
+    /// Whether its samplers weigh 32-bit floats. Default: no.
+    pub float32_filterable: bool,
     /// Largest storage buffer that a shader can see, in bytes. Default: 128 MiB, as WebGPU guarantees.
     pub max_storage_buffer_binding_size: u64,
     /// Largest buffer, in bytes. Default: 256 MiB, as WebGPU guarantees.
@@ -92,6 +94,7 @@ impl Default for DeviceFacts {
     fn default() -> Self {
         Self {
             float32_blendable: false,
+            float32_filterable: false,
             max_storage_buffer_binding_size: 128 << 20,
             max_buffer_size: 256 << 20,
             max_texture_dimension_2d: 8192,

@@ -36,6 +36,10 @@ pub enum Omitted {
     InstanceTransforms,
     /// Stages that deform positions.
     Deformation,
+    /// The search for blockers.
+    BlockerSearch,
+    /// 32-bit moments and stronger warps.
+    FullMoments,
 }
 
 /// Why something was left out.
@@ -44,10 +48,20 @@ pub enum Omitted {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Reason {
-    /// The technique makes hard shadows from the shadow map alone.
-    TechniqueIsShadowMap,
-    /// Smoothies are as wide as the light's size asks, and it has none.
+    /// The technique makes no smoothies.
+    TechniqueHasNoSmoothies,
+    /// The shadow is as soft as the light's size asks, and it has none.
     LightHasNoSize,
+    /// The technique reads no moments of depth.
+    TechniqueHasNoMoments,
+    /// Linear depth is what is read.
+    LinearDepthIsRead,
+    /// Receivers look up hardware depth alone.
+    HardwareDepthIsEnough,
+    /// The device's samplers do not weigh 32-bit floats.
+    DeviceFiltersNoFloats,
+    /// The shadow map is 16-bit, and every device blends 16-bit floats.
+    HalvesBlend,
     /// The caller wants the list of silhouette edges and nothing else.
     OnlySilhouettesWanted,
     /// The caller looks the maps up in a shader of its own.
@@ -85,6 +99,8 @@ impl fmt::Display for Omitted {
             Self::Topology(name) => return formatter.pad(&format!("topology of {name}")),
             Self::InstanceTransforms => "instance transforms",
             Self::Deformation => "deformation",
+            Self::BlockerSearch => "search for blockers",
+            Self::FullMoments => "32-bit moments",
         };
         formatter.pad(text)
     }
@@ -93,8 +109,15 @@ impl fmt::Display for Omitted {
 impl fmt::Display for Reason {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {
-            Self::TechniqueIsShadowMap => "the technique makes hard shadows from the shadow map alone",
-            Self::LightHasNoSize => "smoothies are as wide as the light's size asks, and it has none",
+            Self::TechniqueHasNoSmoothies => "the technique makes no smoothies",
+            Self::LightHasNoSize => "the shadow is as soft as the light's size asks, and it has none",
+            Self::TechniqueHasNoMoments => "the technique reads no moments of depth",
+            Self::LinearDepthIsRead => "linear depth is what is read",
+            Self::HardwareDepthIsEnough => "receivers look up hardware depth alone",
+            Self::DeviceFiltersNoFloats => {
+                "the device's samplers do not weigh 32-bit floats: 16 bits, and an exponent of at most 5.54"
+            }
+            Self::HalvesBlend => "16-bit floats blend on every device: one pass fills depth and alpha",
             Self::OnlySilhouettesWanted => "only the list of silhouette edges is wanted",
             Self::NoVisibilityTextureWanted => "the maps are looked up in the caller's own shader",
             Self::NothingCasts => "no mesh with a face casts",

@@ -13,6 +13,7 @@ mod plan;
 mod size_buffers;
 mod stage;
 mod texture;
+mod visibility;
 
 pub use buffer::{BufferKind, BufferPlan};
 pub use capacity::Capacity;
@@ -24,3 +25,4 @@ pub use pipeline::{EntryPoints, PipelinePlan};
 pub use plan::{FramePlan, PlanInput};
 pub use stage::Stage;
 pub use texture::{TextureFormat, TextureKind, TexturePlan};
+pub use visibility::{MapSampler, VisibilityKind};

@@ -8,8 +8,14 @@ use super::TextureKind;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Pass {
-    /// Hardware depth and linear depth of every caster.
+    /// Hardware depth of every caster, where nobody reads linear depth.
+    HardwareShadowMap,
+    /// Linear depth of every caster, by the hardware's depth test.
     ShadowMap,
+    /// Moments of the shadow map's depth: the first level.
+    Moments,
+    /// Moments, blurred and halved level by level.
+    BlurredMoments,
     /// Nearest smoothie depth, by the hardware's depth test. The first of two.
     SmoothieDepth,
     /// Least smoothie alpha, in 16-bit floats. The second of two.
@@ -22,13 +28,24 @@ pub enum Pass {
 
 impl Pass {
     /// All passes in the order in which a frame runs them.
-    pub const ALL: [Self; 5] =
-        [Self::ShadowMap, Self::SmoothieDepth, Self::SmoothieAlpha, Self::SmoothieBuffer, Self::Visibility];
+    pub const ALL: [Self; 8] = [
+        Self::HardwareShadowMap,
+        Self::ShadowMap,
+        Self::Moments,
+        Self::BlurredMoments,
+        Self::SmoothieDepth,
+        Self::SmoothieAlpha,
+        Self::SmoothieBuffer,
+        Self::Visibility,
+    ];
 
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::HardwareShadowMap => "hardware_shadow_map",
             Self::ShadowMap => "shadow_map",
+            Self::Moments => "moments",
+            Self::BlurredMoments => "blurred_moments",
             Self::SmoothieDepth => "smoothie_depth",
             Self::SmoothieAlpha => "smoothie_alpha",
             Self::SmoothieBuffer => "smoothie_buffer",
@@ -39,7 +56,11 @@ impl Pass {
     /// The buffers that its shaders bind, and the draw arguments.
     pub const fn buffers(self) -> &'static [BufferKind] {
         match self {
-            Self::ShadowMap => &[LightView, FaceItems, Casters, CasterLights, Faces, Positions],
+            Self::HardwareShadowMap | Self::ShadowMap => {
+                &[LightView, FaceItems, Casters, CasterLights, Faces, Positions]
+            }
+            Self::Moments => &[LightView],
+            Self::BlurredMoments => &[],
             Self::SmoothieDepth | Self::SmoothieAlpha | Self::SmoothieBuffer => &[LightView, Quads, Corners, DrawArgs],
             Self::Visibility => &[ReceiverView],
         }
@@ -48,12 +69,20 @@ impl Pass {
     /// The textures of the light view that it fills.
     pub const fn fills(self) -> &'static [TextureKind] {
         match self {
+            Self::HardwareShadowMap => &[TextureKind::ShadowHardwareDepth],
             Self::ShadowMap => &[TextureKind::ShadowDepth, TextureKind::ShadowHardwareDepth],
+            Self::Moments => &[TextureKind::Moments],
             Self::SmoothieDepth => &[TextureKind::SmoothieDepth],
             Self::SmoothieAlpha => &[TextureKind::SmoothieAlpha],
             Self::SmoothieBuffer => &[TextureKind::SmoothieBuffer],
-            Self::Visibility => &[],
+            // Its levels are those of the texture that the pass before made.
+            Self::BlurredMoments | Self::Visibility => &[],
         }
+    }
+
+    /// Whether it draws the casters.
+    pub const fn fills_shadow_map(self) -> bool {
+        matches!(self, Self::HardwareShadowMap | Self::ShadowMap)
     }
 
     /// Whether it draws quads and corners.

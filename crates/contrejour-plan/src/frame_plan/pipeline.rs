@@ -1,6 +1,7 @@
 //! The pipelines of a frame.
 
 use super::{Pass, Stage};
+use crate::{AlphaRemap, Technique};
 
 /// A pipeline that the frame needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,8 +26,8 @@ pub enum EntryPoints {
         pass: Pass,
         /// Entry point of its vertices.
         vertex: &'static str,
-        /// Entry point of its fragments.
-        fragment: &'static str,
+        /// Entry point of its fragments; `None` where only hardware depth is drawn.
+        fragment: Option<&'static str>,
     },
 }
 
@@ -35,20 +36,33 @@ impl PipelinePlan {
         Self { entry_points: EntryPoints::Compute(stage), constants: Vec::new() }
     }
 
-    /// One for each draw of the pass. `remap_alpha` is the override constant of the smoothies' fragments.
-    pub(super) fn of_pass(pass: Pass, remap_alpha: f64) -> Vec<Self> {
+    /// One for each draw of the pass.
+    pub(super) fn of_pass(pass: Pass, technique: &Technique) -> Vec<Self> {
         let (vertices, fragment): (&[_], _) = match pass {
-            Pass::ShadowMap => (&["vertex_shadow_map"], "fragment_shadow_map"),
-            Pass::SmoothieDepth => (&["vertex_quad", "vertex_corner"], "fragment_smoothie_depth"),
-            Pass::SmoothieAlpha => (&["vertex_quad", "vertex_corner"], "fragment_smoothie_alpha"),
-            Pass::SmoothieBuffer => (&["vertex_quad", "vertex_corner"], "fragment_smoothie_buffer"),
-            Pass::Visibility => (&["vertex_visibility"], "fragment_visibility"),
+            Pass::HardwareShadowMap => (&["vertex_shadow_map"], None),
+            Pass::ShadowMap => (&["vertex_shadow_map"], Some("fragment_shadow_map")),
+            Pass::Moments if is_warped(technique) => (&["vertex_full_screen"], Some("fragment_warped_moments")),
+            Pass::Moments => (&["vertex_full_screen"], Some("fragment_moments")),
+            Pass::BlurredMoments => (&["vertex_full_screen"], Some("fragment_blurred_moments")),
+            Pass::SmoothieDepth => (&["vertex_quad", "vertex_corner"], Some("fragment_smoothie_depth")),
+            Pass::SmoothieAlpha => (&["vertex_quad", "vertex_corner"], Some("fragment_smoothie_alpha")),
+            Pass::SmoothieBuffer => (&["vertex_quad", "vertex_corner"], Some("fragment_smoothie_buffer")),
+            Pass::Visibility => (&["vertex_visibility"], Some("fragment_visibility")),
         };
-        let constants = if pass.draws_smoothies() { vec![("remap_alpha", remap_alpha)] } else { Vec::new() };
+        let constants = match technique {
+            Technique::Smoothies(smoothies) if pass.draws_smoothies() => {
+                vec![("remap_alpha", if smoothies.remap == AlphaRemap::Contact { 1.0 } else { 0.0 })]
+            }
+            _ => Vec::new(),
+        };
         let pipeline = |vertex: &&'static str| Self {
             entry_points: EntryPoints::Raster { pass, vertex, fragment },
             constants: constants.clone(),
         };
         vertices.iter().map(pipeline).collect()
     }
+}
+
+fn is_warped(technique: &Technique) -> bool {
+    matches!(technique, Technique::Variance(variance) if variance.warp_exponent > 0.0)
 }

@@ -4,9 +4,9 @@ use super::decide::{LeftOutList, casting, passes, smoothies_wanted, stages};
 use super::size_buffers::SceneSizes;
 use super::{
     BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, MeshFacts, Omitted, Outputs, Pass, PipelinePlan, PlanError,
-    Reason, SceneFacts, Stage, TextureKind, TexturePlan,
+    Reason, SceneFacts, Stage, TextureKind, TexturePlan, VisibilityKind,
 };
-use crate::{AlphaRemap, ShadowSettings, SmoothieSettings, View, ViewCounts};
+use crate::{ShadowSettings, View, ViewCounts};
 
 /// What a plan is made from.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +34,10 @@ pub struct PlanInput<'a> {
 pub struct FramePlan {
     /// What the caller wants.
     pub outputs: Outputs,
-    /// How the shadow is made.
+    /// How the shadow is made, as far as the device can do it.
     pub settings: ShadowSettings,
+    /// The visibility function; `None` without maps.
+    pub visibility: Option<VisibilityKind>,
     /// Compute stages in their order.
     pub stages: Vec<Stage>,
     /// Raster passes in their order.
@@ -96,13 +98,9 @@ impl FramePlan {
             .map(|kind| sizes.buffer(kind, device))
             .collect::<Result<Vec<_>, _>>()?;
         let textures = passes.iter().flat_map(|pass| pass.fills());
-        let textures = textures.map(|kind| TexturePlan::new(*kind, settings.map_size)).collect();
-        let remap_alpha = match smoothies {
-            Some(SmoothieSettings { remap: AlphaRemap::Off, .. }) => 0.0,
-            _ => 1.0,
-        };
+        let textures = textures.map(|kind| TexturePlan::new(*kind, settings, device)).collect();
         let of_stages = stages.iter().map(|stage| PipelinePlan::of_stage(*stage));
-        let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, remap_alpha));
+        let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, &settings.technique));
         let pipelines = of_stages.chain(of_passes).collect();
 
         let room = |kind| buffers.iter().find(|buffer| buffer.kind == kind).map_or(0, |buffer| buffer.items as u32);
@@ -121,7 +119,8 @@ impl FramePlan {
         let left_out = left_out.0;
         Ok(Self {
             outputs,
-            settings: *settings,
+            settings: settings.on_device(device),
+            visibility: VisibilityKind::of(&settings.technique, &passes, input.view.light_size > 0.0),
             stages,
             passes,
             pipelines,

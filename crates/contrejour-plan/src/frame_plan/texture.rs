@@ -1,5 +1,8 @@
 //! The maps of a light view.
 
+use super::DeviceFacts;
+use crate::{DepthPrecision, ShadowSettings, Technique};
+
 /// A texture of a light view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -7,7 +10,7 @@
 pub enum TextureKind {
     /// Linear depth of the shadow map.
     ShadowDepth,
-    /// Hardware depth while the shadow map is drawn.
+    /// Hardware depth of the shadow map; only while it is drawn, where linear depth is what is read.
     ShadowHardwareDepth,
     /// Hardware depth of the smoothies, of two passes.
     SmoothieDepth,
@@ -15,6 +18,8 @@ pub enum TextureKind {
     SmoothieAlpha,
     /// Linear depth and alpha of the smoothies, of one pass.
     SmoothieBuffer,
+    /// Moments of depth, with all levels.
+    Moments,
 }
 
 /// What a texel holds.
@@ -28,8 +33,14 @@ pub enum TextureFormat {
     Depth32Float,
     /// One 16-bit float.
     R16Float,
+    /// Two 16-bit floats.
+    Rg16Float,
     /// Two 32-bit floats.
     Rg32Float,
+    /// Four 16-bit floats.
+    Rgba16Float,
+    /// Four 32-bit floats.
+    Rgba32Float,
 }
 
 /// A texture that the frame needs.
@@ -40,9 +51,11 @@ pub struct TexturePlan {
     pub kind: TextureKind,
     /// What a texel holds.
     pub format: TextureFormat,
-    /// Texels along each side.
+    /// Texels along each side of the first level.
     pub size: u32,
-    /// Size of its texels in bytes.
+    /// Levels, each half as large as the one before.
+    pub levels: u32,
+    /// Size of the texels of all levels in bytes.
     pub bytes: u64,
 }
 
@@ -55,16 +68,31 @@ impl TextureKind {
             Self::SmoothieDepth => "smoothie_depth",
             Self::SmoothieAlpha => "smoothie_alpha",
             Self::SmoothieBuffer => "smoothie_buffer",
+            Self::Moments => "moments",
         }
     }
 
     /// What a texel holds.
-    pub const fn format(self) -> TextureFormat {
+    fn format(self, settings: &ShadowSettings, device: &DeviceFacts) -> TextureFormat {
+        let by_precision = |halves, floats| match settings.depth_precision {
+            DepthPrecision::Bits16 => halves,
+            DepthPrecision::Bits32 => floats,
+        };
         match self {
-            Self::ShadowDepth => TextureFormat::R32Float,
+            Self::ShadowDepth => by_precision(TextureFormat::R16Float, TextureFormat::R32Float),
             Self::ShadowHardwareDepth | Self::SmoothieDepth => TextureFormat::Depth32Float,
             Self::SmoothieAlpha => TextureFormat::R16Float,
-            Self::SmoothieBuffer => TextureFormat::Rg32Float,
+            Self::SmoothieBuffer => by_precision(TextureFormat::Rg16Float, TextureFormat::Rg32Float),
+            Self::Moments => {
+                let warped =
+                    matches!(settings.technique, Technique::Variance(variance) if variance.warp_exponent > 0.0);
+                match (warped, device.float32_filterable) {
+                    (false, false) => TextureFormat::Rg16Float,
+                    (false, true) => TextureFormat::Rg32Float,
+                    (true, false) => TextureFormat::Rgba16Float,
+                    (true, true) => TextureFormat::Rgba32Float,
+                }
+            }
         }
     }
 }
@@ -76,23 +104,56 @@ impl TextureFormat {
             Self::R32Float => "r32float",
             Self::Depth32Float => "depth32float",
             Self::R16Float => "r16float",
+            Self::Rg16Float => "rg16float",
             Self::Rg32Float => "rg32float",
+            Self::Rgba16Float => "rgba16float",
+            Self::Rgba32Float => "rgba32float",
         }
     }
 
     const fn texel_bytes(self) -> u64 {
         match self {
             Self::R16Float => 2,
-            Self::R32Float | Self::Depth32Float => 4,
-            Self::Rg32Float => 8,
+            Self::R32Float | Self::Depth32Float | Self::Rg16Float => 4,
+            Self::Rg32Float | Self::Rgba16Float => 8,
+            Self::Rgba32Float => 16,
         }
     }
 }
 
 impl TexturePlan {
-    pub(super) fn new(kind: TextureKind, size: u32) -> Self {
-        let format = kind.format();
-        let bytes = u64::from(size) * u64::from(size) * format.texel_bytes();
-        Self { kind, format, size, bytes }
+    pub(super) fn new(kind: TextureKind, settings: &ShadowSettings, device: &DeviceFacts) -> Self {
+        let (size, format) = (settings.map_size, kind.format(settings, device));
+        let levels = if kind == TextureKind::Moments { size.ilog2() + 1 } else { 1 };
+        let sides = (0..levels).map(|level| u64::from((size >> level).max(1)));
+        let texels: u64 = sides.map(|side| side * side).sum();
+        Self { kind, format, size, levels, bytes: texels * format.texel_bytes() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_have_all_levels() {
+        let technique = "evsm".parse().expect("there is such a technique");
+        let settings = ShadowSettings { map_size: 6, technique, ..ShadowSettings::default() };
+        let device = DeviceFacts { float32_filterable: true, ..DeviceFacts::default() };
+        let plan = TexturePlan::new(TextureKind::Moments, &settings, &device);
+        assert_eq!((plan.levels, plan.bytes), (3, 16 * (36 + 9 + 1)));
+        let plan = TexturePlan::new(TextureKind::Moments, &settings, &DeviceFacts::default());
+        assert_eq!((plan.format, plan.bytes), (TextureFormat::Rgba16Float, 8 * (36 + 9 + 1)));
+    }
+
+    #[test]
+    fn half_the_precision_is_half_the_memory() {
+        for kind in [TextureKind::ShadowDepth, TextureKind::SmoothieBuffer] {
+            let bytes = |depth_precision| {
+                let settings = ShadowSettings { depth_precision, ..ShadowSettings::default() };
+                TexturePlan::new(kind, &settings, &DeviceFacts::default()).bytes
+            };
+            assert_eq!(bytes(DepthPrecision::Bits32), 2 * bytes(DepthPrecision::Bits16));
+        }
     }
 }

@@ -3,7 +3,7 @@
 use contrejour_layout::{LightView, ReceiverView};
 
 use super::{Projection, View};
-use crate::{DepthBias, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique};
+use crate::{DepthPrecision, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, VarianceSoftness};
 
 /// The smallest smoothie width: less, and the rim falls between texels.
 const MIN_WIDTH_TEXELS: f64 = 1.5;
@@ -40,7 +40,7 @@ impl View {
     pub fn light_view(&self, settings: &ShadowSettings, counts: &ViewCounts) -> LightView {
         let width = match &settings.technique {
             Technique::Smoothies(smoothies) => self.width_terms(smoothies, settings.map_size),
-            Technique::ShadowMap => WidthTerms::default(),
+            _ => WidthTerms::default(),
         };
         LightView {
             perspective: self.is_perspective(),
@@ -62,24 +62,57 @@ impl View {
             width_max_ndc: width.max as f32,
             bias_smoothie_texels: settings.bias.smoothie_texels,
             texel_world: self.texel_world(settings.map_size) as f32,
-            unused_0: 0,
+            depth_unit: self.depth_unit(settings),
+            warp_exponent: match settings.technique {
+                Technique::Variance(variance) => variance.warp_exponent,
+                _ => 0.0,
+            },
+            ..LightView::default()
         }
     }
 
     /// What the visibility function needs.
-    pub fn receiver_view(&self, map_size: u32, bias: &DepthBias) -> ReceiverView {
-        ReceiverView {
+    pub fn receiver_view(&self, settings: &ShadowSettings) -> ReceiverView {
+        let bias = &settings.bias;
+        let mut record = ReceiverView {
             light_clip_from_world: self.light_clip_from_world.as_mat4().to_cols_array(),
             light_world: self.unit_light_world().as_vec4().to_array(),
-            axis_world: self.axis_world.extend(0.0).as_vec4().to_array(),
             perspective: self.is_perspective(),
-            map_size,
+            map_size: settings.map_size,
             near_depth: self.near_depth as f32,
             far_depth: self.far_depth as f32,
-            texel_world: self.texel_world(map_size) as f32,
+            texel_world: self.texel_world(settings.map_size) as f32,
             bias_constant_texels: bias.constant_texels,
             bias_slope_texels: bias.slope_texels,
             bias_normal_texels: bias.normal_texels,
+            depth_unit: self.depth_unit(settings),
+            ndc_scale: self.ndc_scale() as f32,
+            ndc_offset: self.ndc_offset() as f32,
+            light_size: self.light_size as f32,
+            ..ReceiverView::default()
+        };
+        match settings.technique {
+            Technique::Pcss(pcss) => record.search_max_ndc = pcss.search_max_ndc,
+            Technique::Variance(variance) => {
+                match variance.softness {
+                    VarianceSoftness::Texels(texels) => record.blur_texels = texels,
+                    VarianceSoftness::FromLightSize { search_max_ndc } => record.search_max_ndc = search_max_ndc,
+                }
+                record.bleed_cut = variance.bleed_cut;
+                record.min_variance = variance.min_variance;
+                record.warp_exponent = variance.warp_exponent;
+            }
+            _ => {}
+        }
+        record
+    }
+
+    /// What 1 stands for in maps of linear depth: 16-bit floats hold shares of the farthest depth, so that no depth is
+    /// too large for them.
+    fn depth_unit(&self, settings: &ShadowSettings) -> f32 {
+        match settings.depth_precision {
+            DepthPrecision::Bits32 => 1.0,
+            DepthPrecision::Bits16 => self.far_depth as f32,
         }
     }
 
@@ -108,7 +141,7 @@ impl View {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Light, LightKind, views};
+    use crate::{DepthBias, Light, LightKind, views};
     use glam::{DVec3, Mat4, Vec4};
 
     fn spot() -> View {
@@ -220,12 +253,12 @@ mod tests {
     #[test]
     fn a_receiver_finds_its_depth() {
         let bias = DepthBias { constant_texels: 1.0, slope_texels: 2.0, normal_texels: 3.0, smoothie_texels: 4.0 };
-        let record = spot().receiver_view(512, &bias);
+        let settings = ShadowSettings { map_size: 512, bias, ..ShadowSettings::default() };
+        let record = spot().receiver_view(&settings);
         let clip = Mat4::from_cols_array(&record.light_clip_from_world) * Vec4::new(0.0, 3.0, 0.0, 1.0);
         assert!((clip.w - 7.0).abs() < 1e-5);
         assert_eq!(record.light_world, [0.0, 10.0, 0.0, 1.0]);
-        assert_eq!(record.axis_world, [0.0, -1.0, 0.0, 0.0]);
         assert_eq!([record.bias_constant_texels, record.bias_slope_texels, record.bias_normal_texels], [1.0, 2.0, 3.0]);
-        assert_eq!(sun().receiver_view(512, &bias).light_world, [0.0, 0.6, 0.8, 0.0], "of unit length");
+        assert_eq!(sun().receiver_view(&settings).light_world, [0.0, 0.6, 0.8, 0.0], "of unit length");
     }
 }

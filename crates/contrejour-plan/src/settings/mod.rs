@@ -1,9 +1,17 @@
 //! What the caller can set about a light's shadow.
 
 mod bias;
+mod parameters;
+mod percentage_closer;
 mod shadow_settings;
+mod smoothies;
 mod technique;
+mod variance;
 
 pub use bias::DepthBias;
-pub use shadow_settings::{PRESETS, Preset, SettingsError, ShadowSettings};
-pub use technique::{AlphaRemap, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, UnknownTechnique};
+pub use parameters::{Parameter, ParameterRange};
+pub use percentage_closer::{GaussianKernel, GaussianPcfSettings, PcssSettings};
+pub use shadow_settings::{DepthPrecision, PRESETS, Preset, SettingsError, ShadowSettings};
+pub use smoothies::{AlphaRemap, SmoothieBlend, SmoothieSettings, SmoothieWidth};
+pub use technique::{Technique, UnknownTechnique};
+pub use variance::{VarianceSettings, VarianceSoftness};

@@ -1,6 +1,9 @@
 //! Everything that can be set about one light's shadow, and presets.
 
-use super::{AlphaRemap, DepthBias, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique};
+use super::{
+    AlphaRemap, DepthBias, ParameterRange, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, VarianceSettings,
+};
+use crate::DeviceFacts;
 
 /// What can be set about one light's shadow. Default: the preset `medium`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +16,21 @@ pub struct ShadowSettings {
     pub map_size: u32,
     /// Depth bias.
     pub bias: DepthBias,
+    /// How exactly the maps keep linear depth, where the technique has any. Default: 32 bits.
+    pub depth_precision: DepthPrecision,
+}
+
+/// How exactly linear depth is kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum DepthPrecision {
+    /// 32-bit floats.
+    #[default]
+    Bits32,
+    /// 16-bit floats, as a share of the view's farthest depth: half the memory and bandwidth; depth is off by up to
+    /// 1 / 2048 of itself, which a bias of a texel hides on maps of up to some 1000 texels.
+    Bits16,
 }
 
 /// Settings with a name.
@@ -36,7 +54,9 @@ const fn preset(name: &'static str, map_size: u32, width_max_ndc: f32) -> Preset
         remap: AlphaRemap::Contact,
         blend: SmoothieBlend::BestOfDevice,
     });
-    Preset { name, settings: ShadowSettings { technique, map_size, bias: DepthBias::DEFAULT } }
+    let settings =
+        ShadowSettings { technique, map_size, bias: DepthBias::DEFAULT, depth_precision: DepthPrecision::Bits32 };
+    Preset { name, settings }
 }
 
 /// What is wrong with shadow settings.
@@ -46,13 +66,25 @@ pub enum SettingsError {
     /// The maps have no texels.
     #[error("the map size is 0: give at least 1 texel, 1024 is common")]
     NoTexels,
-    /// A width is not in its range.
-    #[error("the smoothie {field} is {value}: give more than 0 and at most 2, which is the whole map")]
-    Width {
-        /// Which width.
-        field: &'static str,
+    /// A parameter of the technique is not in its range.
+    #[error("{name} is {value}: give {range}")]
+    Parameter {
+        /// Its name.
+        name: &'static str,
         /// What it holds.
-        value: f32,
+        value: f64,
+        /// What it may hold.
+        range: ParameterRange,
+    },
+    /// The technique has no such parameter.
+    #[error("the technique {technique} has no parameter \"{name}\": {}", known_ones(known))]
+    UnknownParameter {
+        /// The technique.
+        technique: &'static str,
+        /// The name that was given.
+        name: String,
+        /// The names that it has.
+        known: Vec<&'static str>,
     },
     /// A bias is not in its range.
     #[error("the {field} is {value} texels: give a finite number of 0 or more")]
@@ -90,11 +122,10 @@ impl ShadowSettings {
         if self.map_size == 0 {
             return Err(SettingsError::NoTexels);
         }
-        if let Technique::Smoothies(smoothies) = &self.technique {
-            if let SmoothieWidth::Ndc(width) = smoothies.width {
-                check_width("width", width)?;
+        for parameter in self.technique.parameters() {
+            if let Some(value) = parameter.value.filter(|value| !parameter.range.contains(*value)) {
+                return Err(SettingsError::Parameter { name: parameter.name, value, range: parameter.range });
             }
-            check_width("largest width", smoothies.width_max_ndc)?;
         }
         for (field, value) in self.bias.named_values() {
             if !(value >= 0.0 && value.is_finite()) {
@@ -102,6 +133,18 @@ impl ShadowSettings {
             }
         }
         Ok(())
+    }
+
+    /// The same as far as a device can do it: moments of devices that do not filter 32-bit floats have 16 bits, which
+    /// hold the warp only up to [`VarianceSettings::MAX_EXPONENT_OF_HALVES`].
+    pub fn on_device(&self, device: &DeviceFacts) -> Self {
+        let mut settings = *self;
+        if let Technique::Variance(variance) = &mut settings.technique
+            && !device.float32_filterable
+        {
+            variance.warp_exponent = variance.warp_exponent.min(VarianceSettings::MAX_EXPONENT_OF_HALVES);
+        }
+        settings
     }
 }
 
@@ -111,8 +154,8 @@ impl Default for ShadowSettings {
     }
 }
 
-fn check_width(field: &'static str, value: f32) -> Result<(), SettingsError> {
-    if value > 0.0 && value <= 2.0 { Ok(()) } else { Err(SettingsError::Width { field, value }) }
+fn known_ones(known: &[&str]) -> String {
+    if known.is_empty() { "it has none".to_owned() } else { format!("give one of {}", known.join(", ")) }
 }
 
 #[cfg(test)]
@@ -137,22 +180,31 @@ mod tests {
     fn each_bad_field_has_its_error() {
         let good = ShadowSettings::default();
         assert_eq!(ShadowSettings { map_size: 0, ..good }.validate(), Err(SettingsError::NoTexels));
-        for value in [0.0, -0.1, 2.1, f32::INFINITY] {
-            let technique = Technique::Smoothies(SmoothieSettings {
-                width: SmoothieWidth::Ndc(value),
-                ..SmoothieSettings::default()
-            });
-            let error = SettingsError::Width { field: "width", value };
-            assert_eq!(ShadowSettings { technique, ..good }.validate(), Err(error));
-            let technique =
-                Technique::Smoothies(SmoothieSettings { width_max_ndc: value, ..SmoothieSettings::default() });
-            let error = SettingsError::Width { field: "largest width", value };
-            assert_eq!(ShadowSettings { technique, ..good }.validate(), Err(error));
+        for value in [0.0, -0.1, 2.5, f32::INFINITY] {
+            let width = SmoothieWidth::Ndc(value);
+            let technique = Technique::Smoothies(SmoothieSettings { width, ..SmoothieSettings::default() });
+            let error = ShadowSettings { technique, ..good }.validate().expect_err("out of range");
+            assert!(matches!(error, SettingsError::Parameter { name: "width_ndc", .. }), "{error}");
         }
+        let technique = Technique::Variance(VarianceSettings { warp_exponent: f32::NAN, ..VarianceSettings::EVSM });
+        let error = ShadowSettings { technique, ..good }.validate();
+        assert!(matches!(error, Err(SettingsError::Parameter { name: "warp_exponent", .. })));
         let bias = DepthBias { slope_texels: -1.0, ..DepthBias::default() };
         let error = SettingsError::Bias { field: "slope bias", value: -1.0 };
         assert_eq!(ShadowSettings { bias, ..good }.validate(), Err(error));
         let bias = DepthBias { constant_texels: f32::NAN, ..DepthBias::default() };
         assert!(matches!(ShadowSettings { bias, ..good }.validate(), Err(SettingsError::Bias { .. })));
+    }
+    #[test]
+    fn halves_hold_less_warp() {
+        let technique = Technique::Variance(VarianceSettings::EVSM);
+        let settings = ShadowSettings { technique, ..ShadowSettings::default() };
+        let able = DeviceFacts { float32_filterable: true, ..DeviceFacts::default() };
+        assert_eq!(settings.on_device(&able), settings);
+        let Technique::Variance(weak) = settings.on_device(&DeviceFacts::default()).technique else {
+            panic!("it stays what it is")
+        };
+        assert_eq!(weak.warp_exponent, VarianceSettings::MAX_EXPONENT_OF_HALVES);
+        assert!((2.0 * weak.warp_exponent).exp() < 65504.0);
     }
 }

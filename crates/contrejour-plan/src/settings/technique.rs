@@ -1,7 +1,9 @@
-//! Shadow techniques and what can be set about each.
+//! Shadow techniques.
 
 use core::fmt;
 use core::str::FromStr;
+
+use super::{GaussianPcfSettings, PcssSettings, SmoothieSettings, VarianceSettings, VarianceSoftness};
 
 /// How a light's shadow is made. Default: smoothies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,8 +11,22 @@ use core::str::FromStr;
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Technique {
-    /// A plain shadow map: hard shadows, and the cheapest.
+    /// One comparison with the nearest texel of a shadow map (Williams 1978), by the hardware: hard shadows with steps,
+    /// and the cheapest.
     ShadowMap,
+    /// Percentage-closer filtering (Reeves, Salesin and Cook 1987) over the four nearest texels, by the hardware's
+    /// comparison sampler: hard shadows with smooth edges.
+    Pcf,
+    /// Percentage-closer filtering with a bell-shaped kernel, in few look-ups of four texels each (Castano 2013,
+    /// "Shadow Mapping Summary"): soft edges of the same width everywhere.
+    GaussianPcf(GaussianPcfSettings),
+    /// Percentage-closer filtering with the cubic B-spline over 16 texels, which Chan and Durand (2003) compare with.
+    BicubicPcf,
+    /// Percentage-closer soft shadows (Fernando 2005): the mean blocker's depth sets the filter's radius.
+    Pcss(PcssSettings),
+    /// Variance shadow maps (Donnelly and Lauritzen 2006), plain or exponentially warped (Lauritzen and McCool 2008),
+    /// blurred evenly or as the blockers' depth asks.
+    Variance(VarianceSettings),
     /// Smoothies (Chan and Durand 2003): soft shadows whose outer penumbra grows with the distance from the caster.
     Smoothies(SmoothieSettings),
 }
@@ -23,65 +39,37 @@ pub struct UnknownTechnique {
     pub name: String,
 }
 
-/// What can be set about smoothies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct SmoothieSettings {
-    /// How wide the soft edge is. Default: from the light's size.
-    pub width: SmoothieWidth,
-    /// Largest width in NDC (the map's side is 2). Range: more than 0, up to 2. Default: 2, which is no limit. Less
-    /// bounds the fill cost of a large light near its casters; their penumbra is then too narrow.
-    pub width_max_ndc: f32,
-    /// Whether the edge hardens towards the contact. Default: it does.
-    pub remap: AlphaRemap,
-    /// How overlapping smoothies are blended. Default: as well as the device can.
-    pub blend: SmoothieBlend,
-}
-
-/// How wide a smoothie is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum SmoothieWidth {
-    /// The same everywhere. Unit: NDC (the map's side is 2). Range: more than 0, up to 2; Chan and Durand (2003) show
-    /// 0.02 and 0.08.
-    Ndc(f32),
-    /// As the light's disk asks at each blocker's depth, so that the rim is where the outer penumbra ends.
-    FromLightSize,
-}
-
-/// What happens to a smoothie's alpha where its receiver is near.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum AlphaRemap {
-    /// The penumbra shrinks to nothing where the caster touches its receiver.
-    #[default]
-    Contact,
-    /// The penumbra is as wide at the contact as anywhere: shows what the remap cures.
-    Off,
-}
-
-/// How the nearest depth and the smallest alpha of overlapping smoothies are found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum SmoothieBlend {
-    /// In one pass where the device blends 32-bit floats, else in two.
-    #[default]
-    BestOfDevice,
-    /// In two passes on every device: the depth by the hardware's depth test, then the alpha in 16-bit floats.
-    TwoPasses,
-}
-
 impl Technique {
     /// The names of all techniques.
-    pub const NAMES: [&str; 2] = ["shadow-map", "smoothies"];
+    pub const NAMES: [&str; 10] = [
+        "shadow-map",
+        "pcf",
+        "gaussian-pcf",
+        "bicubic-pcf",
+        "pcss",
+        "vsm",
+        "evsm",
+        "vsm-pcss",
+        "evsm-pcss",
+        "smoothies",
+    ];
 
     /// Its name on the command line and in scene files.
     pub fn name(&self) -> &'static str {
         match self {
             Self::ShadowMap => "shadow-map",
+            Self::Pcf => "pcf",
+            Self::GaussianPcf(_) => "gaussian-pcf",
+            Self::BicubicPcf => "bicubic-pcf",
+            Self::Pcss(_) => "pcss",
+            Self::Variance(VarianceSettings { warp_exponent, softness, .. }) => {
+                match (*warp_exponent > 0.0, softness) {
+                    (false, VarianceSoftness::Texels(_)) => "vsm",
+                    (true, VarianceSoftness::Texels(_)) => "evsm",
+                    (false, VarianceSoftness::FromLightSize { .. }) => "vsm-pcss",
+                    (true, VarianceSoftness::FromLightSize { .. }) => "evsm-pcss",
+                }
+            }
             Self::Smoothies(_) => "smoothies",
         }
     }
@@ -104,27 +92,19 @@ impl FromStr for Technique {
     type Err = UnknownTechnique;
 
     fn from_str(name: &str) -> Result<Self, UnknownTechnique> {
-        match name {
-            "shadow-map" => Ok(Self::ShadowMap),
-            "smoothies" => Ok(Self::Smoothies(SmoothieSettings::DEFAULT)),
-            _ => Err(UnknownTechnique { name: name.to_owned() }),
-        }
-    }
-}
-
-impl SmoothieSettings {
-    /// The defaults.
-    pub const DEFAULT: Self = Self {
-        width: SmoothieWidth::FromLightSize,
-        width_max_ndc: 2.0,
-        remap: AlphaRemap::Contact,
-        blend: SmoothieBlend::BestOfDevice,
-    };
-}
-
-impl Default for SmoothieSettings {
-    fn default() -> Self {
-        Self::DEFAULT
+        Ok(match name {
+            "shadow-map" => Self::ShadowMap,
+            "pcf" => Self::Pcf,
+            "gaussian-pcf" => Self::GaussianPcf(GaussianPcfSettings::DEFAULT),
+            "bicubic-pcf" => Self::BicubicPcf,
+            "pcss" => Self::Pcss(PcssSettings::DEFAULT),
+            "vsm" => Self::Variance(VarianceSettings::VSM),
+            "evsm" => Self::Variance(VarianceSettings::EVSM),
+            "vsm-pcss" => Self::Variance(VarianceSettings::VSM_PCSS),
+            "evsm-pcss" => Self::Variance(VarianceSettings::EVSM_PCSS),
+            "smoothies" => Self::Smoothies(SmoothieSettings::DEFAULT),
+            _ => return Err(UnknownTechnique { name: name.to_owned() }),
+        })
     }
 }
 
@@ -143,6 +123,6 @@ mod tests {
     #[test]
     fn an_unknown_name_is_told_the_known_ones() {
         let error = "smoothie".parse::<Technique>().expect_err("not a name");
-        assert_eq!(error.to_string(), "there is no technique \"smoothie\": give one of shadow-map, smoothies");
+        assert!(error.to_string().starts_with("there is no technique \"smoothie\": give one of shadow-map, pcf, "));
     }
 }

@@ -1,50 +1,82 @@
 //! The section `shadow`.
 
-use contrejour_plan::{AlphaRemap, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique};
+use contrejour_plan::{AlphaRemap, DepthPrecision, SettingsError, ShadowSettings, Technique};
 
-use super::section::Section;
-use super::value::{NOT_NEGATIVE, POSITIVE, Value};
+use super::value::{ANY, NOT_NEGATIVE, Value};
 use crate::{Problem, SceneError};
 
 const PRESETS: &[&str] = &["low", "medium", "high", "ultra"];
 const REMAPS: &[&str] = &["contact", "off"];
-const ANY_KEYS: &[&str] = &[
+const KEYS: &[&str] = &[
     "technique",
     "preset",
     "map_size",
-    "width_ndc",
-    "width_max_ndc",
-    "remap",
+    "depth_bits",
     "bias_constant_texels",
     "bias_slope_texels",
     "bias_normal_texels",
     "bias_smoothie_texels",
+    "remap",
+    "width_ndc",
+    "width_max_ndc",
+    "kernel",
+    "blocker_samples",
+    "filter_samples",
+    "search_max_ndc",
+    "blur_texels",
+    "warp_exponent",
+    "bleed_cut",
+    "min_variance",
 ];
-const SHADOW_MAP_KEYS: &[&str] =
-    &["technique", "preset", "map_size", "bias_constant_texels", "bias_slope_texels", "bias_normal_texels"];
+/// Those of the keys that are parameters of one technique or another.
+const PARAMETERS: &[&str] = KEYS.split_at(9).1;
 /// The largest side of a texture that devices commonly offer.
 const MAX_MAP_SIZE: u32 = 16_384;
 
 pub(super) fn read_shadow(value: &Value<'_>) -> Result<ShadowSettings, SceneError> {
-    let section = value.section("the shadow", ANY_KEYS)?;
+    let section = value.section("the shadow", KEYS)?;
     let mut settings = section.read_or("preset", ShadowSettings::default(), |value| {
         let preset = PRESETS[value.name_of(PRESETS)?];
         ShadowSettings::preset(preset).map_err(|error| value.refuse(error.into()))
     })?;
-    let technique = section.read_or("technique", settings.technique.name(), |value| {
-        Ok(Technique::NAMES[value.name_of(&Technique::NAMES)?])
-    })?;
-    if technique == Technique::ShadowMap.name() {
-        value.section("a shadow made by a shadow map alone", SHADOW_MAP_KEYS)?;
-        settings.technique = Technique::ShadowMap;
-    } else if let Technique::Smoothies(smoothies) = &mut settings.technique {
-        read_smoothies(&section, smoothies)?;
+    let technique = &mut settings.technique;
+    if let Some(value) = section.get("technique") {
+        let name = Technique::NAMES[value.name_of(&Technique::NAMES)?];
+        // The preset's own technique keeps what the preset set.
+        if name != technique.name() {
+            *technique = name.parse().map_err(|_| value.refuse(unknown(technique, name)))?;
+        }
+    }
+    for key in PARAMETERS {
+        if let Some(value) = section.get(key) {
+            technique.set(key, value.number(ANY)?).map_err(|error| value.refuse(error.into()))?;
+        }
+    }
+    for key in ["remap", "bias_smoothie_texels"] {
+        if let Some(value) = section.get(key).filter(|_| !matches!(technique, Technique::Smoothies(_))) {
+            return Err(value.refuse(unknown(technique, key)));
+        }
+    }
+    if let Technique::Smoothies(smoothies) = technique {
+        smoothies.remap = section.read_or("remap", smoothies.remap, |value| {
+            Ok(if REMAPS[value.name_of(REMAPS)?] == "contact" { AlphaRemap::Contact } else { AlphaRemap::Off })
+        })?;
     }
     settings.map_size = section.read_or("map_size", settings.map_size, |value| {
         let size = value.count()?;
         let known = (1..=MAX_MAP_SIZE).contains(&size);
         if known { Ok(size) } else { Err(value.refuse(Problem::MapSize { size, most: MAX_MAP_SIZE })) }
     })?;
+    settings.depth_precision =
+        section.read_or("depth_bits", settings.depth_precision, |value| match value.count()? {
+            16 => Ok(DepthPrecision::Bits16),
+            32 => Ok(DepthPrecision::Bits32),
+            bits => Err(value.refuse(Problem::OutOfRange {
+                key: "depth_bits".to_owned(),
+                value: bits.to_string(),
+                expected: "16 or 32".to_owned(),
+            })),
+        })?;
     let bias = &mut settings.bias;
     for (key, texels) in [
         ("bias_constant_texels", &mut bias.constant_texels),
@@ -58,14 +90,25 @@ pub(super) fn read_shadow(value: &Value<'_>) -> Result<ShadowSettings, SceneErro
     Ok(settings)
 }
 
-fn read_smoothies(section: &Section<'_>, smoothies: &mut SmoothieSettings) -> Result<(), SceneError> {
-    let width = |value: &Value<'_>| Ok(value.number(POSITIVE)? as f32);
-    if let Some(value) = section.get("width_ndc") {
-        smoothies.width = SmoothieWidth::Ndc(width(&value)?);
+fn unknown(technique: &Technique, key: &str) -> Problem {
+    let known = technique.parameters().into_iter().map(|parameter| parameter.name).collect();
+    SettingsError::UnknownParameter { technique: technique.name(), name: key.to_owned(), known }.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_parameter_is_a_key() {
+        let mut names: Vec<_> = (Technique::NAMES.iter())
+            .flat_map(|name| name.parse::<Technique>().expect("listed").parameters())
+            .map(|parameter| parameter.name)
+            .collect();
+        names.sort_unstable();
+        names.dedup();
+        let mut keys = PARAMETERS.to_vec();
+        keys.sort_unstable();
+        assert_eq!(keys, names);
     }
-    smoothies.width_max_ndc = section.read_or("width_max_ndc", smoothies.width_max_ndc, width)?;
-    smoothies.remap = section.read_or("remap", smoothies.remap, |value| {
-        Ok(if REMAPS[value.name_of(REMAPS)?] == "contact" { AlphaRemap::Contact } else { AlphaRemap::Off })
-    })?;
-    Ok(())
 }

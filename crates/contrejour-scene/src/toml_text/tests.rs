@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use contrejour_plan::{AlphaRemap, LightKind, ShadowSettings, SmoothieWidth, Technique};
+use contrejour_plan::{AlphaRemap, DepthPrecision, LightKind, ShadowSettings, SmoothieWidth, Technique};
 
 use crate::{BUILT_IN_SCENES, MeshSource, Place, Problem, Scene, SceneError};
 
@@ -193,8 +193,16 @@ fn shadow_settings_are_read_and_checked() {
     let message = |shadow: &str| read(&with(shadow)).expect_err("must be refused").to_string();
     assert!(message("preset = \"best\"").starts_with("test.toml:8:10: `preset` is \"best\"; give one of `low`"));
     assert!(message("map_size = 0").starts_with("test.toml:8:12: a shadow map of 0 texels"));
-    assert!(message("width_ndc = 3").contains("width is 3: give more than 0 and at most 2"));
-    assert!(message("technique = \"shadow-map\"\nremap = \"off\"").starts_with("test.toml:9:1: a shadow made by"));
+    assert!(message("width_ndc = 3").contains("width_ndc is 3: give more than 0, up to 2"));
+    let foreign = message("technique = \"shadow-map\"\nremap = \"off\"");
+    assert!(foreign.starts_with("test.toml:9:9: the technique shadow-map has no parameter \"remap\""), "{foreign}");
+    let foreign = message("technique = \"pcss\"\nkernel = 5");
+    assert!(foreign.contains("give one of blocker_samples, filter_samples"), "{foreign}");
+    assert!(message("technique = \"pcss\"\nfilter_samples = 0").contains("a whole number from 1 to 1024"));
+    assert!(message("depth_bits = 24").contains("give 16 or 32"));
+    let pcss = read(&with("technique = \"pcss\"\nfilter_samples = 64\ndepth_bits = 16")).expect("good").shadow;
+    assert_eq!(pcss.depth_precision, DepthPrecision::Bits16);
+    assert!(matches!(pcss.technique, Technique::Pcss(pcss) if pcss.filter_samples == 64));
 }
 
 #[test]

@@ -1,7 +1,10 @@
 use glam::{DMat4, DVec3};
 
 use super::*;
-use crate::{CasterFacts, Light, LightKind, ObjectBox, SettingsError, SmoothieBlend, SmoothieWidth, Technique, views};
+use crate::{
+    AlphaRemap, CasterFacts, DepthPrecision, Light, LightKind, MapSampler, ObjectBox, SettingsError, SmoothieBlend,
+    SmoothieSettings, SmoothieWidth, Technique, TextureFormat, VarianceSettings, views,
+};
 
 /// A closed cube of 12 faces: 18 edges, 6 of them coplanar diagonals that can be in no silhouette.
 const CUBE: MeshFacts =
@@ -98,7 +101,7 @@ fn assert_consistent(plan: &FramePlan) {
     for kind in BufferKind::ALL {
         let bound = plan.stages.iter().any(|stage| stage.buffers().contains(&kind))
             || plan.passes.iter().any(|pass| pass.buffers().contains(&kind))
-            || kind == BufferKind::ReceiverView && plan.has_pass(Pass::ShadowMap);
+            || kind == BufferKind::ReceiverView && plan.passes.iter().any(|pass| pass.fills_shadow_map());
         assert_eq!(plan.buffer(kind).is_some(), bound, "{}", kind.name());
     }
     for texture in &plan.textures {
@@ -194,10 +197,65 @@ fn a_shadow_map_needs_no_silhouettes() {
     case.settings.technique = Technique::ShadowMap;
     let plan = case.good();
     assert!(plan.stages.is_empty());
-    assert_eq!(plan.passes, [Pass::ShadowMap]);
+    assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
     assert_eq!(plan.counts.edge_items, 0);
-    assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::TechniqueIsShadowMap));
+    assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::TechniqueHasNoSmoothies));
+    assert_eq!(plan.reason(&Omitted::Pass(Pass::ShadowMap)), Some(Reason::HardwareDepthIsEnough));
     assert!(plan.buffer(BufferKind::Edges).is_none() && plan.buffer(BufferKind::FaceItems).is_some());
+}
+
+#[test]
+fn each_technique_has_the_maps_that_its_receivers_read() {
+    let mut case = Case::new(cube_scene());
+    for name in Technique::NAMES {
+        case.settings.technique = name.parse().expect("listed");
+        let plan = case.good();
+        let visibility = plan.visibility.expect("maps are wanted");
+        for texture in visibility.textures() {
+            assert!(plan.texture(*texture).is_some(), "{name} reads {}", texture.name());
+        }
+        let only_while_drawn = [TextureKind::ShadowHardwareDepth, TextureKind::ShadowDepth];
+        for texture in plan.textures.iter().filter(|texture| !only_while_drawn.contains(&texture.kind)) {
+            assert!(visibility.textures().contains(&texture.kind), "{name} fills {}", texture.kind.name());
+        }
+        assert_eq!(plan.stages.is_empty(), name != "smoothies", "{name}");
+    }
+}
+
+#[test]
+fn moments_are_as_exact_as_samplers_weigh() {
+    let mut case = Case::new(cube_scene());
+    case.settings.technique = Technique::Variance(VarianceSettings::EVSM_PCSS);
+    let plan = case.good();
+    assert_eq!(plan.passes, [Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments]);
+    let format = |plan: &FramePlan| plan.texture(TextureKind::Moments).map(|texture| texture.format);
+    assert_eq!(format(&plan), Some(TextureFormat::Rgba16Float));
+    assert_eq!(plan.reason(&Omitted::FullMoments), Some(Reason::DeviceFiltersNoFloats));
+    assert_ne!(plan.settings, case.settings, "the warp is weaker, and the plan says so");
+    case.device.float32_filterable = true;
+    let plan = case.good();
+    assert_eq!(format(&plan), Some(TextureFormat::Rgba32Float));
+    assert_eq!((plan.settings, plan.reason(&Omitted::FullMoments)), (case.settings, None));
+}
+
+#[test]
+fn halves_need_one_smoothie_pass() {
+    let mut case = Case::new(cube_scene());
+    case.settings.depth_precision = DepthPrecision::Bits16;
+    let plan = case.good();
+    assert_eq!(plan.passes, [Pass::ShadowMap, Pass::SmoothieBuffer]);
+    assert_eq!(plan.reason(&Omitted::Pass(Pass::SmoothieDepth)), Some(Reason::HalvesBlend));
+}
+
+#[test]
+fn a_light_without_size_needs_no_search() {
+    let mut case = Case::new(cube_scene());
+    case.settings.technique = "pcss".parse().expect("listed");
+    assert!(matches!(case.good().visibility, Some(VisibilityKind::Pcss { blocker_samples: 16, filter_samples: 32 })));
+    case.view = spot(0.0);
+    let plan = case.good();
+    assert_eq!(plan.visibility, Some(VisibilityKind::Compared(MapSampler::CompareLinear)));
+    assert_eq!(plan.reason(&Omitted::BlockerSearch), Some(Reason::LightHasNoSize));
 }
 
 #[test]
@@ -205,7 +263,8 @@ fn a_light_without_size_has_hard_shadows() {
     let mut case = Case::new(cube_scene());
     case.view = spot(0.0);
     let plan = case.good();
-    assert_eq!(plan.passes, [Pass::ShadowMap]);
+    assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
+    assert_eq!(plan.visibility, Some(VisibilityKind::Compared(MapSampler::CompareLinear)));
     assert_eq!(plan.reason(&Omitted::SmoothiePasses), Some(Reason::LightHasNoSize));
     case.settings = smoothies(|smoothies| smoothies.width = SmoothieWidth::Ndc(0.02));
     assert_eq!(case.good().stages, Stage::ALL, "a given width needs no light's size");
@@ -283,7 +342,7 @@ fn an_empty_scene_clears_the_map() {
     for scene in [SceneFacts::default(), SceneFacts { meshes: vec![MeshFacts::default()], ..cube_scene() }] {
         let mut case = Case::new(scene);
         let plan = case.good();
-        assert_eq!(plan.passes, [Pass::ShadowMap]);
+        assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
         assert_eq!(plan.reason(&Omitted::SmoothiePasses), Some(Reason::NothingCasts));
         assert_eq!(plan.counts, ViewCounts::default());
         case.outputs = Outputs::Silhouettes;
@@ -370,7 +429,7 @@ fn the_print_shows_all_of_it() {
         "technique: smoothies, 1024 texels",
         "  shadow_depth           1024 x 1024 r32float      4.0 MiB",
         "  quads          12 x 64 B  768 B",
-        "  topology of floor     it only receives",
+        "  topology of floor         it only receives",
     ] {
         assert!(print.lines().any(|printed| printed == line), "no line \"{line}\" in\n{print}");
     }
