@@ -7,7 +7,7 @@
 pub struct VarianceSettings {
     /// Exponent of the warp of depth, which runs from -1 to 1 over the view (Lauritzen and McCool 2008); 0 leaves depth as
     /// it is, which makes a plain variance shadow map. Range: 0 to 42, the most that 32-bit moments hold; on devices
-    /// that do not filter 32-bit floats at most 5.54. Default: 0, and 40 where it warps. The larger, the less light
+    /// that do not filter 32-bit floats at most 5.54. Default: 0, and 5.54 where it warps. The larger, the less light
     /// bleeds through overlapping shadows, and the closer to percentage-closer filtering.
     pub warp_exponent: f32,
     /// How soft the edges are. Default: a disk of 4 texels.
@@ -46,7 +46,7 @@ impl VarianceSettings {
 
     /// Warped, evenly blurred.
     pub const EVSM: Self =
-        Self { warp_exponent: 40.0, softness: VarianceSoftness::Texels(4.0), bleed_cut: 0.05, min_variance: 1e-8 };
+        Self { warp_exponent: Self::MAX_EXPONENT_OF_HALVES, softness: VarianceSoftness::Texels(4.0), bleed_cut: 0.05, min_variance: 1e-8 };
 
     /// Plain, blurred as the light's size asks.
     pub const VSM_PCSS: Self = Self { softness: VarianceSoftness::FROM_LIGHT_SIZE, ..Self::VSM };
