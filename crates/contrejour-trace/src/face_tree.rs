@@ -10,6 +10,7 @@ use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::Ray;
 
 use crate::shadow_ray::ShadowRay;
+use crate::shaft::Shaft;
 use crate::trace_space::{BOX_MARGIN, HALF_SIDE};
 
 /// A binary tree of boxes (obvhs' `Bvh2`).
@@ -43,6 +44,27 @@ impl FaceTree {
         let reach = (leave - enter + 2.0 * BOX_MARGIN) as f32;
         let ray = Ray::new(origin, ray.direction.as_vec3a(), 0.0, reach);
         !self.tree.ray_traverse_miss(ray, |_, slot| if is_hit(self.face_of_slot[slot]) { 0.0 } else { f32::INFINITY })
+    }
+
+    /// Whether a face for which `is_met` says so lies in the shaft. It is asked about the faces of the leaves that the
+    /// shaft may meet, in no order.
+    pub fn any_in(&self, shaft: &Shaft, mut is_met: impl FnMut(u32) -> bool) -> bool {
+        let mut to_visit = if self.tree.nodes.is_empty() { vec![] } else { vec![0] };
+        while let Some(index) = to_visit.pop() {
+            let node = &self.tree.nodes[index as usize];
+            let (low, high) = (node.aabb().min.as_dvec3(), node.aabb().max.as_dvec3());
+            if !shaft.may_meet_box((low + high) / 2.0, (high - low) / 2.0) {
+                continue;
+            }
+            if !node.is_leaf() {
+                to_visit.extend([node.first_index, node.first_index + 1]);
+            } else if (node.first_index..node.first_index + node.prim_count)
+                .any(|slot| is_met(self.face_of_slot[slot as usize]))
+            {
+                return true;
+            }
+        }
+        false
     }
 }
 

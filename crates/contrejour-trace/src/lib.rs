@@ -38,6 +38,7 @@ mod occluders;
 mod options;
 mod receiver;
 mod shadow_ray;
+mod shaft;
 mod surface_point;
 mod trace;
 mod trace_space;

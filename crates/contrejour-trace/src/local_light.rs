@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::disk_map::disk_from_square;
 use crate::shadow_ray::ShadowRay;
+use crate::shaft::Shaft;
 use crate::surface_point::SurfacePoint;
 use crate::trace_space::TraceSpace;
 use crate::{Facing, LightShape};
@@ -78,6 +79,20 @@ impl LocalLight {
             _ if height <= -half_height => Facing::Averted,
             _ if height >= 0.0 => Facing::MostlyTowards,
             _ => Facing::MostlyAverted,
+        }
+    }
+
+    /// All rays from a point above a face with the unit normal `normal`. None where the point is so near that they go
+    /// everywhere.
+    pub fn shaft_from(&self, apex: DVec3, normal: DVec3) -> Option<Shaft> {
+        match *self {
+            Self::Disk { center, half_u, .. } => Shaft::to_sphere(apex, normal, center, half_u.length()),
+            Self::Rectangle { center, half_u, half_v } => {
+                let radius = (half_u + half_v).length().max((half_u - half_v).length());
+                Shaft::to_sphere(apex, normal, center, radius)
+            }
+            Self::Sphere { center, radius } => Shaft::to_sphere(apex, normal, center, radius),
+            Self::Sun { axis, half_u, .. } => Some(Shaft::to_sun(apex, normal, axis, half_u.length().atan())),
         }
     }
 

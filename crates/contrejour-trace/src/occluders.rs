@@ -5,6 +5,7 @@ use glam::{DMat4, DVec3};
 use crate::error::OccluderError;
 use crate::face_tree::FaceTree;
 use crate::shadow_ray::ShadowRay;
+use crate::shaft::Shaft;
 use crate::surface_point::SurfacePoint;
 use crate::trace_space::TraceSpace;
 use crate::{Receiver, TraceError};
@@ -62,7 +63,7 @@ pub struct Occluders {
 
 impl Occluders {
     /// Part of the scene's largest coordinate by which rays start above their face: what rounding in `f64` does
-    /// to the planes of faces and to the intersections with them is some hundred times less.
+    /// to faces and to intersections with them is some hundred times less.
     const LIFT: f64 = 1.0 / (1_u64 << 44) as f64;
 
     /// Part of the scene's largest coordinate by which a receiver may be off its face: `f32` and interpolation
@@ -132,9 +133,9 @@ impl Occluders {
         self.tree.any_along(ray, |face| face != own_face && ray.is_blocked_by(&self.corners[face as usize]))
     }
 
-    /// How far above a face rays start, in trace space.
-    pub(crate) fn lift(&self) -> f64 {
-        Self::LIFT * self.space.largest_coordinate
+    /// Whether a face other than `own_face` may block a ray of the shaft.
+    pub(crate) fn may_meet(&self, shaft: &Shaft, own_face: u32) -> bool {
+        self.tree.any_in(shaft, |face| face != own_face && shaft.may_meet_face(&self.corners[face as usize]))
     }
 
     pub(crate) fn space(&self) -> &TraceSpace {
@@ -154,7 +155,8 @@ impl Occluders {
             return Err(TraceError::FaceWithoutArea { receiver: index, face });
         }
         let [position, seen_from] = [position, seen_from].map(|point| self.space.point_from_world(point));
-        let point = SurfacePoint::on_face(corners, position, seen_from);
+        let lift = Self::LIFT * self.space.largest_coordinate;
+        let point = SurfacePoint::above_face(corners, position, seen_from, lift);
         let (distance, allowed) =
             (point.position.distance(position), Self::MOST_OFF_FACE * self.space.largest_coordinate);
         if distance > allowed {

@@ -2,11 +2,14 @@
 
 use glam::DVec3;
 
-/// The part of the way to the middle of the face by which starts keep off its border, so that rounding never puts one
-/// behind a wall that meets the face there.
-const INWARDS: f64 = 1.0 / (1_u64 << 28) as f64;
+/// Starts keep so many lifts off the lines of their face's sides, about, so that rounding never puts one behind a wall
+/// that meets the face there.
+const LIFTS_INWARDS: f64 = 3.0;
 
-/// A point of a face and the side that is looked at, in trace space.
+/// The most of the way to the middle of a face that a start moves inwards: slivers are thinner than rounding.
+const MOST_INWARDS: f64 = 1.0 / 64.0;
+
+/// A start of rays on the side of a face that is looked at, in trace space.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfacePoint {
     pub position: DVec3,
@@ -15,16 +18,20 @@ pub(crate) struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// The point of the face nearest to `position`, a hair inwards. The face must have area.
-    pub fn on_face(corners: &[DVec3; 3], position: DVec3, seen_from: DVec3) -> Self {
+    /// Above the point of the face nearest to `position`, by `lift`, and about as much inwards from its border. The
+    /// face must have area.
+    pub fn above_face(corners: &[DVec3; 3], position: DVec3, seen_from: DVec3, lift: f64) -> Self {
         let [a, b, c] = *corners;
         let nearest = nearest_point(corners, position);
-        let normal = (b - a).cross(c - a).normalize();
-        let is_front = normal.dot(seen_from - nearest) >= 0.0;
-        Self {
-            position: nearest + ((a + b + c) / 3.0 - nearest) * INWARDS,
-            normal: if is_front { normal } else { -normal },
-        }
+        let across = (b - a).cross(c - a);
+        let normal = across.normalize();
+        let normal = if normal.dot(seen_from - nearest) >= 0.0 { normal } else { -normal };
+        // The middle is a third of the least height off the longest side, and more off the others.
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let least_height = across.length() / longest;
+        let inwards = (3.0 * LIFTS_INWARDS * lift / least_height).min(MOST_INWARDS);
+        let on_face = nearest + ((a + b + c) / 3.0 - nearest) * inwards;
+        Self { position: on_face + lift * normal, normal }
     }
 }
 

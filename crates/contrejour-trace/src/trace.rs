@@ -66,6 +66,9 @@ impl Tracer<'_> {
         if facing == Facing::Averted {
             return Visibility { mean: 0.0, standard_error: 0.0, samples: 0, facing };
         }
+        if facing == Facing::Towards && self.sees_all(point, face) {
+            return Visibility { mean: 1.0, standard_error: 0.0, samples: 0, facing };
+        }
         if self.light.has_no_size() {
             let mean = f64::from(self.sees(point, face, DVec2::splat(0.5)));
             return Visibility { mean, standard_error: 0.0, samples: 1, facing };
@@ -91,9 +94,15 @@ impl Tracer<'_> {
         }
     }
 
+    /// Whether nothing is between the receiver and the light, by one walk through the tree.
+    fn sees_all(&self, point: &SurfacePoint, face: u32) -> bool {
+        let shaft = self.light.shaft_from(point.position, point.normal);
+        shaft.is_some_and(|shaft| !self.occluders.may_meet(&shaft, face))
+    }
+
     /// Whether the receiver sees a point of the light.
     fn sees(&self, point: &SurfacePoint, face: u32, square: DVec2) -> bool {
-        let ray = self.light.ray_from(point.position + self.occluders.lift() * point.normal, square);
+        let ray = self.light.ray_from(point.position, square);
         // Its own face is an opaque sheet.
         ray.direction.dot(point.normal) > 0.0 && !self.occluders.block(&ray, face)
     }
