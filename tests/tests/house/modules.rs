@@ -46,12 +46,26 @@ pub fn all() -> Vec<Module> {
     ] {
         let shared = ["receiver", "receiver_lookup"].iter().chain(variant);
         let shared = shared.map(|name| shader_file(&format!("shared/{name}.wgsl")));
-        // As the library's `visibility_wgsl` writes it for the renderer's bind group.
-        let own = [shader_file("raster/shade.wgsl"), "const CONTREJOUR_GROUP = 2u;".into()];
-        let files: Vec<_> = own.into_iter().chain(shared).collect();
-        modules.push(Module { name: format!("shade+{}", variant.join("+")), wgsl: files.join("\n") });
+        let shared: Vec<_> = shared.collect();
+        // As the library's `visibility_wgsl` writes it for the bind group that the renderer's module leaves to it.
+        for (own, files, group) in [
+            ("shade", &["raster/shade", "shared/surface_light", "shared/surface"][..], 2),
+            ("judged_visibility", &["raster/judged_visibility"], 1),
+        ] {
+            let own_text = files.iter().map(|file| shader_file(&format!("{file}.wgsl")));
+            let group = format!("const CONTREJOUR_GROUP = {group}u;");
+            let text: Vec<_> = own_text.chain([group]).chain(shared.iter().cloned()).collect();
+            modules.push(Module { name: format!("{own}+{}", variant.join("+")), wgsl: text.join("\n") });
+        }
     }
-    modules.push(Module { name: "silhouette_lines".into(), wgsl: shader_file("raster/silhouette_lines.wgsl") });
+    for (name, files) in [
+        ("receivers", &["raster/receivers", "shared/surface"][..]),
+        ("compose", &["raster/compose", "shared/surface_light", "shared/surface"]),
+        ("silhouette_lines", &["raster/silhouette_lines"]),
+    ] {
+        let text: Vec<_> = files.iter().map(|file| shader_file(&format!("{file}.wgsl"))).collect();
+        modules.push(Module { name: name.into(), wgsl: text.join("\n") });
+    }
     modules
 }
 
