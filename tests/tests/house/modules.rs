@@ -6,9 +6,6 @@ use std::path::{Path, PathBuf};
 use contrejour_gpu::shaders::visibility_wgsl;
 use contrejour_plan::VisibilityKind;
 
-/// The renderer's bind group for the light's maps.
-const SHADE_VISIBILITY_GROUP: u32 = 2;
-
 /// A module's name and whole text.
 pub struct Module {
     pub name: String,
@@ -45,12 +42,27 @@ pub fn all() -> Vec<Module> {
     let library = contrejour_gpu::shaders::all();
     let mut modules: Vec<_> =
         library.map(|module| Module { name: module.name.into(), wgsl: module.wgsl.into() }).collect();
-    let shade = shader_file("raster/shade.wgsl");
+    let joined = |files: &[&str]| -> String {
+        let text: Vec<_> = files.iter().map(|file| shader_file(&format!("{file}.wgsl"))).collect();
+        text.join("\n")
+    };
     for kind in VisibilityKind::examples() {
-        let visibility = visibility_wgsl(kind, SHADE_VISIBILITY_GROUP);
-        modules.push(Module { name: format!("shade+{kind:?}"), wgsl: format!("{shade}\n{visibility}") });
+        // At the bind groups that the renderer's modules leave to the library.
+        for (own, files, group) in [
+            ("shade", &["raster/shade", "shared/surface_light", "shared/surface"][..], 2),
+            ("judged_visibility", &["raster/judged_visibility"], 1),
+        ] {
+            let wgsl = format!("{}\n{}", joined(files), visibility_wgsl(kind, group));
+            modules.push(Module { name: format!("{own}+{kind:?}"), wgsl });
+        }
     }
-    modules.push(Module { name: "silhouette_lines".into(), wgsl: shader_file("raster/silhouette_lines.wgsl") });
+    for (name, files) in [
+        ("receivers", &["raster/receivers", "shared/surface"][..]),
+        ("compose", &["raster/compose", "shared/surface_light", "shared/surface"]),
+        ("silhouette_lines", &["raster/silhouette_lines"]),
+    ] {
+        modules.push(Module { name: name.into(), wgsl: joined(files) });
+    }
     modules
 }
 
