@@ -21,6 +21,10 @@ pub struct TraceOptions {
     pub most_samples: u32,
     /// Standard error of visibility that is small enough. Range: 0 and up. Default: 1/256, a grey level of a picture
     /// of 8 bits.
+    ///
+    /// Receivers stop when the spread of few replicates looks small, so the root mean square error of those in a
+    /// penumbra is up to 1.1 times this, and one in some hundred is off by four times this. Where that matters, take
+    /// more replicates, or as many points for all.
     pub target_error: f64,
 }
 
