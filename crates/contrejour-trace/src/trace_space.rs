@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-/// Half the side of the cube that holds all faces. The tree's box tests are in `f32`; CWBVH-like constants of theirs
-/// and all rounding stay far below [`BOX_MARGIN`] at this size.
+/// Half the side of the cube that holds all faces. The tree's boxes and rays are in `f32`: at this size their rounding
+/// stays below [`BOX_MARGIN`].
 pub(crate) const HALF_SIDE: f64 = 1024.0;
 
 /// The faces' boxes are larger by at least this on each side, so that no box that holds a hit is missed. A ray enters the cube
