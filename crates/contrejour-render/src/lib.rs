@@ -14,6 +14,7 @@ mod frame_uniforms;
 mod gpu;
 mod judge;
 mod local_space;
+mod map_texels;
 mod map_views;
 mod measurements;
 mod picture_pass;

@@ -1,11 +1,12 @@
 //! Pictures of what stands behind a picture: maps, visibility and silhouettes.
 
-use contrejour_plan::LightKind;
+use contrejour_plan::{DepthPrecision, LightKind};
 use image::RgbaImage;
 
+use crate::map_texels::read_texels;
 use crate::map_views::{MapView, alpha_view, depth_view};
 use crate::picture_pass::Shading;
-use crate::readback::{ReadError, read_picture, read_texture};
+use crate::readback::{ReadError, read_picture};
 use crate::renderer::Renderer;
 use crate::silhouette_lines::SilhouetteLines;
 use crate::silhouettes::read_silhouettes;
@@ -46,27 +47,35 @@ impl Renderer {
         let maps = self.cast.shadows.maps();
         let mut views = Vec::new();
         let mut push = |name, MapView { picture, legend }| views.push(View { name, picture, legend });
+        let texels = |map| read_texels(&self.gpu, map);
+        let channel =
+            |texels: &[[f32; 2]], channel: usize| -> Vec<f32> { texels.iter().map(|texel| texel[channel]).collect() };
+        let linear = |depth: Vec<f32>| depth.into_iter().map(|depth| self.depth_unit() * depth).collect::<Vec<_>>();
         if let Some(map) = maps.shadow_depth {
-            let depth = floats(&read_texture(&self.gpu, map, 4)?);
+            push("shadow_map", self.linear_depth_view(&linear(channel(&texels(map)?, 0)), map.width()));
+        } else if let Some(map) = maps.shadow_hardware_depth {
+            let depth = self.linear_from_hardware(&channel(&texels(map)?, 0));
             push("shadow_map", self.linear_depth_view(&depth, map.width()));
         }
         if let Some(map) = maps.smoothie_buffer {
-            let texels: Vec<[f32; 2]> = bytemuck::pod_collect_to_vec(&read_texture(&self.gpu, map, 8)?);
-            let depth: Vec<f32> = texels.iter().map(|texel| texel[0]).collect();
-            let alpha: Vec<f32> = texels.iter().map(|texel| texel[1]).collect();
-            push("smoothie_depth", self.linear_depth_view(&depth, map.width()));
-            push("smoothie_alpha", alpha_view(&alpha, map.width()));
+            let texels = texels(map)?;
+            push("smoothie_depth", self.linear_depth_view(&linear(channel(&texels, 0)), map.width()));
+            push("smoothie_alpha", alpha_view(&channel(&texels, 1), map.width()));
         }
         if let Some(map) = maps.smoothie_depth {
-            let depth = self.linear_from_hardware(&floats(&read_texture(&self.gpu, map, 4)?));
+            let depth = self.linear_from_hardware(&channel(&texels(map)?, 0));
             push("smoothie_depth", self.linear_depth_view(&depth, map.width()));
         }
         if let Some(map) = maps.smoothie_alpha {
-            let halves: Vec<u16> = bytemuck::pod_collect_to_vec(&read_texture(&self.gpu, map, 2)?);
-            let alpha: Vec<f32> = halves.into_iter().map(float_from_half).collect();
-            push("smoothie_alpha", alpha_view(&alpha, map.width()));
+            push("smoothie_alpha", alpha_view(&channel(&texels(map)?, 0), map.width()));
         }
         Ok(views)
+    }
+
+    /// Depth in local units that 1 stands for in maps of linear depth.
+    fn depth_unit(&self) -> f32 {
+        let precision = self.cast.shadows.plan().map(|plan| plan.settings.depth_precision);
+        if precision == Some(DepthPrecision::Bits16) { self.depth_range().1 as f32 } else { 1.0 }
     }
 
     fn linear_depth_view(&self, depth: &[f32], size: u32) -> MapView {
@@ -120,29 +129,5 @@ impl Renderer {
         }
         self.gpu.queue.submit([encoder.finish()]);
         read_picture(&self.gpu, &self.targets.picture)
-    }
-}
-
-fn floats(bytes: &[u8]) -> Vec<f32> {
-    bytemuck::pod_collect_to_vec(bytes)
-}
-
-/// IEEE 754 binary16, not negative, without infinities: alpha is 0..1.
-fn float_from_half(half: u16) -> f32 {
-    let exponent = i32::from(half >> 10 & 31);
-    let fraction = f32::from(half & 1023) / 1024.0;
-    if exponent == 0 { fraction * 2f32.powi(-14) } else { (1.0 + fraction) * 2f32.powi(exponent - 15) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn halves() {
-        for (half, float) in [(0x0000, 0.0), (0x3c00, 1.0), (0x3800, 0.5), (0x3555, 0.33325195), (0x0001, 5.9604645e-8)]
-        {
-            assert_eq!(float_from_half(half), float, "{half:04x}");
-        }
     }
 }

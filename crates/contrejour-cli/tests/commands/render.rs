@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use contrejour_plan::Technique;
 use libtest_mimic::Trial;
 use serde_json::Value;
 
@@ -32,6 +33,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("render::an_orbit_is_a_picture_a_frame", an_orbit_is_a_picture_a_frame),
         gpu_trial("render::the_object_has_its_keys", the_object_has_its_keys),
         gpu_trial("render::views_are_pictures", views_are_pictures),
+        gpu_trial("render::every_technique_shows_its_maps", every_technique_shows_its_maps),
         gpu_trial("render::a_scene_file_is_drawn", a_scene_file_is_drawn),
     ]
 }
@@ -121,4 +123,20 @@ fn a_scene_file_is_drawn() -> Outcome {
     expect_size(&folder, "picture.png", [48, 32])?;
     folder.run("render face.obj --size 32x32 -o face.png").stdout()?;
     expect_size(&folder, "face.png", [32, 32])
+}
+
+/// Also with 16-bit maps: each has a shadow map with something in it.
+fn every_technique_shows_its_maps() -> Outcome {
+    let folder = Folder::new();
+    let techniques = Technique::NAMES.map(|name| format!("--technique {name}"));
+    let with_halves =
+        ["smoothies", "smoothies --two-passes", "evsm"].map(|name| format!("--technique {name} --depth-bits 16"));
+    for arguments in techniques.iter().chain(&with_halves) {
+        let printed = folder.run(&format!("{SMALL} {arguments} --views views -o picture.png")).stdout()?;
+        let legend = printed.lines().find(|line| line.contains("shadow_map.png")).ok_or("there is no shadow map")?;
+        if !legend.contains("white: depth 6.") || !legend.contains("dark grey: depth 10.9") {
+            return Err(format!("{arguments}: not the depths of the scene: {legend}"));
+        }
+    }
+    Ok(())
 }
