@@ -85,6 +85,8 @@ pub enum Stroke {
     Marks,
     /// A dashed line without marks: a model or a fit.
     Dashed,
+    /// Large rings joined by a dashed line: points of other series that stand out, as a Pareto front.
+    Ringed,
 }
 
 /// Rows and columns of pictures.

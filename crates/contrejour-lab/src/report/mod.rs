@@ -1,16 +1,25 @@
 //! The report: what was measured, as data, files and a page.
 
+mod colours;
 mod cost;
 mod csv;
+mod embed;
+mod error_plot;
 mod figure;
 mod json;
 mod model;
+mod number;
+mod overview;
+mod plot;
 #[cfg(test)]
 mod sample;
 mod settle;
 
+pub use colours::{difference_colour, difference_picture, visibility_picture};
 pub use cost::{Cost, CostRatio, StageCost, StageRatio};
+pub use embed::EmbedError;
 pub use figure::{Axis, Body, Figure, GridRow, Picture, PictureGrid, Plot, Scale, Series, Stroke, Table};
 pub use json::{FromJsonError, ToJsonError};
 pub use model::{Contestant, Errors, Extent, Group, Header, Machine, Parameter, Report, Truth};
+pub use plot::{PlotError, PlotUse};
 pub use settle::BASELINE_TECHNIQUE;
