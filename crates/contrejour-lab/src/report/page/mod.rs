@@ -1,0 +1,116 @@
+//! The report as one HTML page that needs no network, no script and no other file.
+
+mod figures;
+mod frame;
+mod headline;
+mod method;
+mod pictures;
+mod stages;
+mod sweeps;
+mod table;
+
+use std::path::Path;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::embed::EmbedError;
+use super::{PlotError, PlotUse, Report};
+
+const STYLE: &str = include_str!("style.css");
+
+/// Why there is no page.
+#[derive(Debug, thiserror::Error)]
+pub enum PageError {
+    /// A picture is missing or broken.
+    #[error(transparent)]
+    Picture(#[from] EmbedError),
+    /// A plot can't be drawn.
+    #[error("\"{title}\": {error}")]
+    Plot {
+        /// Title of the figure.
+        title: String,
+        /// What is wrong.
+        error: PlotError,
+    },
+}
+
+/// A part of the page that the list at its top leads to.
+struct Section {
+    id: &'static str,
+    title: &'static str,
+    body: Markup,
+}
+
+impl Report {
+    /// The report as a page. Pictures are read from `folder` and stand in the page itself.
+    ///
+    /// # Errors
+    ///
+    /// A picture that can't be read, or a plot with values that have no place.
+    pub fn to_page(&self, folder: &Path) -> Result<String, PageError> {
+        let sections = [
+            Section { id: "findings", title: "What came out", body: frame::findings(self) },
+            Section { id: "glance", title: "At a glance", body: headline::tables(self) },
+            Section { id: "time", title: "Error against time", body: error_plots(self)? },
+            Section { id: "pictures", title: "Pictures", body: pictures::strips(self, folder)? },
+            Section { id: "stages", title: "Where the time goes", body: stages::tables(self) },
+            Section { id: "sweeps", title: "Every variant", body: sweeps::tables(self) },
+            Section {
+                id: "papers",
+                title: "The papers' tables and figures, redone",
+                body: figures::all(self, folder)?,
+            },
+            Section { id: "method", title: "How it was measured", body: method::text(self) },
+        ];
+        // Nothing is listed that was not measured.
+        let sections: Vec<&Section> = sections.iter().filter(|section| !section.body.0.is_empty()).collect();
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta name="color-scheme" content="light dark";
+                    title { (frame::TITLE) }
+                    style { (PreEscaped(STYLE)) }
+                }
+                body {
+                    (frame::head(self))
+                    nav aria-label="Parts of the report" {
+                        ul { @for section in &sections { li { a href={ "#" (section.id) } { (section.title) } } } }
+                    }
+                    main {
+                        @for section in &sections {
+                            section id=(section.id) { h2 { (section.title) } (section.body) }
+                        }
+                    }
+                    (frame::foot(self))
+                }
+            }
+        };
+        Ok(page.into_string())
+    }
+}
+
+/// RMSE against time, a plot a scene.
+fn error_plots(report: &Report) -> Result<Markup, PageError> {
+    let mut plots = Vec::new();
+    for scene in report.scenes() {
+        if let Some(plot) = report.error_plot(scene) {
+            let title = format!("Error against time: {scene}");
+            let svg = plot.to_svg(&title, PlotUse::Inline).map_err(|error| PageError::Plot { title, error })?;
+            plots.push((scene, svg));
+        }
+    }
+    Ok(html! {
+        @if !plots.is_empty() {
+            p.lead {
+                "Down and left is better. Each line is a family's most exact variant over the map sizes; rings mark the "
+                "Pareto front: no other point of the plot is both faster and more exact."
+            }
+            div.plots {
+                @for (scene, svg) in &plots { figure { figcaption { strong { (scene) } } (PreEscaped(svg)) } }
+            }
+        }
+    })
+}

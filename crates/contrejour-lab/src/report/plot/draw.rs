@@ -1,0 +1,151 @@
+//! Drawing of one plot.
+
+use plotters::coord::Shift;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::super::figure::{Plot, Series, Stroke};
+use super::axis::Ticks;
+use super::mark::Mark;
+use super::{PlotError, PlotUse};
+
+/// Units of the drawing for a pixel. plotters draws on whole units; smaller ones keep slopes smooth.
+const UNIT: i32 = 8;
+/// Width of the drawing in pixels: about that of a phone, so that text stays legible there.
+const WIDTH: i32 = 440;
+/// Height of the chart without legend in pixels.
+const CHART_HEIGHT: i32 = 300;
+/// Height of a line of the legend in pixels.
+const LEGEND_LINE: i32 = 19;
+/// Labels up to this many characters go in two columns.
+const LEGEND_SHORT: usize = 26;
+/// Size of all text in pixels.
+const TEXT: i32 = 13;
+
+/// plotters' sizes are 1.24 times those that it writes.
+const TEXT_FOR_PLOTTERS: i32 = TEXT * UNIT * 124 / 100;
+
+type Root<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+pub(super) fn draw(plot: &Plot, x: Ticks, y: Ticks, title: &str, plot_use: PlotUse) -> Result<String, PlotError> {
+    let legend = Legend::of(&plot.series);
+    let height = CHART_HEIGHT + legend.lines * LEGEND_LINE + LEGEND_LINE / 2;
+    let mut svg = String::new();
+    let root = SVGBackend::with_string(&mut svg, ((WIDTH * UNIT) as u32, (height * UNIT) as u32)).into_drawing_area();
+    draw_all(&root, plot, x, y, &legend).map_err(|error| PlotError::Draw(error.to_string()))?;
+    drop(root);
+    Ok(finish(&svg, title, height, plot_use))
+}
+
+fn draw_all(root: &Root, plot: &Plot, x: Ticks, y: Ticks, legend: &Legend) -> Result<(), DrawingError> {
+    let (chart_area, legend_area) = root.split_vertically(CHART_HEIGHT * UNIT);
+    let text = TextStyle::from(("sans-serif", TEXT_FOR_PLOTTERS)).color(&BLACK);
+    let mut chart = ChartBuilder::on(&chart_area)
+        .margin_right(16 * UNIT)
+        // The name of the vertical axis stands above it, where it need not be turned.
+        .margin_top(26 * UNIT)
+        .x_label_area_size(44 * UNIT)
+        .y_label_area_size(48 * UNIT)
+        .build_cartesian_2d(x, y)?;
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(BLACK.mix(0.14).stroke_width(UNIT as u32))
+        .axis_style(BLACK.mix(0.5).stroke_width(UNIT as u32))
+        .set_all_tick_mark_size(4 * UNIT)
+        .label_style(text.clone())
+        .axis_desc_style(text.clone())
+        .x_desc(plot.x.label.as_str())
+        .draw()?;
+    let named = text.clone().pos(Pos::new(HPos::Left, VPos::Center));
+    chart_area.draw(&Text::new(plot.y.label.clone(), (4 * UNIT, 11 * UNIT), named.clone()))?;
+
+    for (number, series) in plot.series.iter().enumerate() {
+        let points: Vec<_> = series.points.iter().map(|&[x, y]| chart.backend_coord(&(x, y))).collect();
+        draw_series(&chart_area, &points, series.stroke, number)?;
+    }
+    for (number, series) in plot.series.iter().enumerate() {
+        let (x, y) = legend.place(number);
+        let ends = [(x - 9 * UNIT, y), (x + 9 * UNIT, y)];
+        let points: &[_] = if matches!(series.stroke, Stroke::Dashed | Stroke::Line) { &ends } else { &[(x, y)] };
+        match series.stroke {
+            // One mark in the middle of the sample's line.
+            Stroke::Line => {
+                legend_area.draw(&PathElement::new(points, line(Mark::of(number).colour.into())))?;
+                legend_area.draw(&Mark::of(number).at((x, y), 4 * UNIT))?;
+            }
+            stroke => draw_series(&legend_area, points, stroke, number)?,
+        }
+        legend_area.draw(&Text::new(series.label.clone(), (x + 15 * UNIT, y), named.clone()))?;
+    }
+    root.present()
+}
+
+fn draw_series(area: &Root, points: &[(i32, i32)], stroke: Stroke, number: usize) -> Result<(), DrawingError> {
+    let mark = Mark::of(number);
+    match stroke {
+        Stroke::Line => {
+            area.draw(&PathElement::new(points, line(mark.colour.into())))?;
+            points.iter().try_for_each(|&point| area.draw(&mark.at(point, 4 * UNIT)))
+        }
+        Stroke::Marks => points.iter().try_for_each(|&point| area.draw(&mark.at(point, 4 * UNIT))),
+        Stroke::Dashed => dashes(area, points, mark.colour.into()),
+        Stroke::Ringed => {
+            let ink = BLACK.mix(0.75);
+            dashes(area, points, ink)?;
+            points.iter().try_for_each(|&point| area.draw(&Circle::new(point, 8 * UNIT, line(ink))))
+        }
+    }
+}
+
+fn dashes(area: &Root, points: &[(i32, i32)], colour: RGBAColor) -> Result<(), DrawingError> {
+    area.draw(&DashedPathElement::new(points.iter().copied(), 6 * UNIT, 4 * UNIT, line(colour)))
+}
+
+fn line(colour: RGBAColor) -> ShapeStyle {
+    colour.stroke_width((UNIT * 3 / 2) as u32)
+}
+
+type DrawingError = DrawingAreaErrorKind<<SVGBackend<'static> as DrawingBackend>::ErrorType>;
+
+/// Where the legend's entries stand: in one column or two, filled by line.
+struct Legend {
+    columns: usize,
+    lines: i32,
+}
+
+impl Legend {
+    fn of(series: &[Series]) -> Self {
+        let is_short = |series: &Series| series.label.chars().count() <= LEGEND_SHORT;
+        let columns = if series.iter().all(is_short) { 2 } else { 1 };
+        Self { columns, lines: series.len().div_ceil(columns) as i32 }
+    }
+
+    /// Middle of an entry's mark.
+    fn place(&self, number: usize) -> (i32, i32) {
+        let [column, line] = [number % self.columns, number / self.columns].map(|i| i as i32);
+        let x = 22 + column * WIDTH / self.columns as i32;
+        (x * UNIT, (line * LEGEND_LINE + LEGEND_LINE / 2) * UNIT)
+    }
+}
+
+/// Gives plotters' drawing a title, a size that suits its use, and the colour of the text around for black.
+fn finish(drawing: &str, title: &str, height: i32, plot_use: PlotUse) -> String {
+    let inner = drawing.split_once('>').map_or("", |(_, inner)| inner).replace("\"#000000\"", "\"currentColor\"");
+    let [units_across, units_down] = [WIDTH * UNIT, height * UNIT];
+    let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    let (size, style) = match plot_use {
+        PlotUse::Inline => (String::new(), ""),
+        PlotUse::File => (
+            format!(r#" width="{WIDTH}" height="{height}""#),
+            "<style>svg { color: #1b1d21 } @media (prefers-color-scheme: dark) { svg { color: #e6e4df } }</style>\n",
+        ),
+    };
+    format!(
+        r#"<svg class="plot" role="img" viewBox="0 0 {units_across} {units_down}"{size} xmlns="http://www.w3.org/2000/svg">
+<title>{title}</title>
+{style}{inner}"#,
+        inner = inner.trim_start(),
+    )
+}
