@@ -14,5 +14,6 @@ pub mod oracle;
 pub mod outline_gap;
 pub mod pipeline;
 pub mod random;
+pub mod ray_cast;
 pub mod stage_run;
 pub mod texture;

@@ -1,11 +1,12 @@
 //! What can go wrong with a scene or a frame.
 
-use contrejour_gpu::{AddMeshError, CountersError, NewShadowsError, PrepareError};
-use contrejour_mesh::TopologyError;
+use contrejour_gpu::{CountersError, PrepareError};
 
+use crate::casters::{CastShadowsError, CasterTopologyError};
 use crate::gpu::DeviceFault;
 use crate::readback::ReadError;
 use crate::scene_meshes::MeshTooLarge;
+use crate::targets::SizeTooLarge;
 
 /// Frames after which a picture that still misses something is given up; buffers grow to what was counted, so two are
 /// enough.
@@ -15,34 +16,17 @@ pub(crate) const MAX_REPEATS: usize = 8;
 #[derive(Debug, thiserror::Error)]
 pub enum NewRendererError {
     /// The picture is larger than the device's textures.
-    #[error(
-        "a picture of {width}x{height} is too large, the graphics device allows {limit} pixels a side; choose a smaller size"
-    )]
-    SizeTooLarge {
-        /// Width in pixels.
-        width: u32,
-        /// Height in pixels.
-        height: u32,
-        /// Most pixels a side.
-        limit: u32,
-    },
+    #[error(transparent)]
+    SizeTooLarge(#[from] SizeTooLarge),
     /// A mesh does not fit.
     #[error(transparent)]
     MeshTooLarge(#[from] MeshTooLarge),
-    /// The shadow settings or the device do not allow shadows.
-    #[error(transparent)]
-    Shadows(#[from] NewShadowsError),
     /// A mesh that casts has no topology.
-    #[error("mesh {mesh:?} cannot cast a shadow")]
-    Topology {
-        /// Name of the mesh in the scene.
-        mesh: String,
-        /// What is wrong with it.
-        source: TopologyError,
-    },
-    /// A mesh that casts does not fit.
     #[error(transparent)]
-    AddMesh(#[from] AddMeshError),
+    Topology(#[from] CasterTopologyError),
+    /// The shadow settings, a mesh or the device do not allow shadows.
+    #[error(transparent)]
+    Shadows(#[from] CastShadowsError),
     /// The scene's light or the device does not allow its shadow.
     #[error(transparent)]
     Prepare(#[from] PrepareError),

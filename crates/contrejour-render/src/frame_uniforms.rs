@@ -4,7 +4,9 @@ use contrejour_plan::{Light, LightKind};
 use contrejour_scene::{Camera, Scene};
 use glam::{DMat4, DVec3, DVec4};
 
-/// `Frame` in `shaders/raster/shade.wgsl`, which says what the fields mean.
+use crate::Gpu;
+
+/// `Frame` in `shaders/shared/surface.wgsl`, which says what the fields mean.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct FrameUniforms {
@@ -55,6 +57,50 @@ impl FrameUniforms {
                 }
             }
         }
+    }
+}
+
+/// The uniforms on the device, bound.
+#[derive(Debug)]
+pub(crate) struct FrameBinding {
+    buffer: wgpu::Buffer,
+    pub layout: wgpu::BindGroupLayout,
+    pub bind_group: wgpu::BindGroup,
+}
+
+impl FrameBinding {
+    pub fn new(gpu: &Gpu) -> Self {
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("frame"),
+            size: size_of::<FrameUniforms>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("frame"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame"),
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+        });
+        Self { buffer, layout, bind_group }
+    }
+
+    /// Uploads camera and light; returns the number of bytes.
+    pub fn upload(&self, gpu: &Gpu, uniforms: &FrameUniforms) -> u64 {
+        gpu.queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(uniforms));
+        self.buffer.size()
     }
 }
 

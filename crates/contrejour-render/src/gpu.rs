@@ -4,8 +4,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use contrejour_plan::DeviceFacts;
 
-/// A device, its queue and what went wrong on it.
-#[derive(Debug)]
+/// A device, its queue and what went wrong on it; a clone is the same device.
+#[derive(Clone, Debug)]
 pub struct Gpu {
     /// Name and driver of the adapter.
     pub adapter_info: wgpu::AdapterInfo,
@@ -102,10 +102,16 @@ impl Gpu {
         }
     }
 
+    /// Whether the device computes on the CPU's cores. Its timestamps tell little of compute passes: judge it by the time
+    /// from submission to completion.
+    pub fn is_software(&self) -> bool {
+        self.adapter_info.device_type == wgpu::DeviceType::Cpu
+    }
+
     /// Frames that may be under way while the next one is recorded. None on a software device: it computes on the cores
     /// that frames are recorded on, and would be measured with the CPU.
     pub fn frames_in_flight(&self) -> usize {
-        if self.adapter_info.device_type == wgpu::DeviceType::Cpu { 0 } else { 2 }
+        if self.is_software() { 0 } else { 2 }
     }
 
     /// What the frame plan needs to know of the device.

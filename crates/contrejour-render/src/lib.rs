@@ -3,10 +3,16 @@
 //! [`Gpu::open`] finds a device without a window, [`Renderer`] brings a scene to it and draws it frame by frame:
 //! diffuse and ambient light on interpolated normals, the shadow of one light, four samples a pixel. It uses the
 //! library as any renderer would.
+//!
+//! [`Judge`] holds one scene for many techniques: the points that its picture shows, the visibility that each technique
+//! gives them and what that costs, and the picture that any visibility makes.
 
+mod casters;
 mod error;
+mod frame_plan;
 mod frame_uniforms;
 mod gpu;
+mod judge;
 mod local_space;
 mod map_views;
 mod measurements;
@@ -15,6 +21,7 @@ mod png;
 mod readback;
 mod renderer;
 mod scene_meshes;
+mod scene_pipeline;
 mod shaders;
 mod silhouette_lines;
 mod silhouettes;
@@ -22,8 +29,14 @@ mod stage_timer;
 mod targets;
 mod views;
 
+pub use casters::{CastShadowsError, CasterTopologyError};
 pub use error::{DrawError, NewRendererError};
+pub use frame_plan::{FramePlanError, frame_plan};
 pub use gpu::{DeviceFault, Gpu, OpenGpuError};
+pub use judge::{
+    ComposeError, Contestant, FrameCost, Judge, NewContestantError, NewJudgeError, Receiver, Receivers, TooManyFaces,
+    rocked,
+};
 pub use local_space::LocalSpace;
 pub use measurements::{Measurements, Spread, StageCost};
 pub use png::{SaveError, save_file, save_png};
@@ -31,4 +44,6 @@ pub use readback::{ReadError, read_buffer, read_texture};
 pub use renderer::Renderer;
 pub use scene_meshes::MeshTooLarge;
 pub use silhouettes::read_silhouettes;
+pub use stage_timer::PassTime;
+pub use targets::SizeTooLarge;
 pub use views::View;

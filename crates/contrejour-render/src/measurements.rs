@@ -6,7 +6,7 @@ use contrejour_plan::BufferKind;
 
 use crate::Gpu;
 use crate::readback::{ReadError, read_buffer};
-use crate::renderer::FrameCost;
+use crate::renderer::CpuCost;
 use crate::stage_timer::TimedStage;
 
 /// What the frames of a [`Renderer`](crate::Renderer) cost.
@@ -60,7 +60,7 @@ impl Measurements {
         device: String,
         frames_in_flight: usize,
         edges: u64,
-        frames: &[FrameCost],
+        frames: &[CpuCost],
         counters: &[Counters],
         stages: &[TimedStage],
         stats: &FrameStats,
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn the_first_frame_uploads_the_scene_and_does_not_count() {
-        let frames = [FrameCost { cpu_ms: 90.0, upload_bytes: 1_000_000 }, FrameCost { cpu_ms: 1.0, upload_bytes: 10 }];
+        let frames = [CpuCost { cpu_ms: 90.0, upload_bytes: 1_000_000 }, CpuCost { cpu_ms: 1.0, upload_bytes: 10 }];
         let measured = Measurements::new(String::new(), 2, 0, &frames, &[], &[], &FrameStats::default());
         assert_eq!(measured.upload_bytes_per_frame, 10);
         assert_eq!(measured.cpu_ms_per_frame, 1.0);

@@ -1,18 +1,14 @@
 //! Draws a scene frame by frame, as a program of a user's would.
 
-use std::collections::{HashMap, VecDeque};
-use std::sync::Arc;
+use std::collections::VecDeque;
 
-use contrejour_gpu::{
-    CasterInput, CountersError, FrameInput, MeshHandle, PassTimer, Positions, PrepareError, ShadowOptions, Shadows,
-};
-use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TriangleMesh};
+use contrejour_gpu::{PassTimer, ShadowOptions};
 use contrejour_plan::Light;
 use contrejour_scene::Scene;
 use cpu_time::ThreadTime;
-use glam::DMat4;
 use image::RgbaImage;
 
+use crate::casters::{CastShadows, Casters};
 use crate::error::{DrawError, MAX_REPEATS, NewRendererError};
 use crate::frame_uniforms::FrameUniforms;
 use crate::gpu::Gpu;
@@ -22,15 +18,15 @@ use crate::picture_pass::{PicturePass, Shading};
 use crate::readback::{ReadError, read_picture};
 use crate::scene_meshes::SceneMeshes;
 use crate::stage_timer::StageTimer;
-use crate::targets::Targets;
+use crate::targets::{Targets, check_size};
 
 /// A scene on the device.
 #[derive(Debug)]
 pub struct Renderer {
     pub(crate) gpu: Gpu,
     pub(crate) local: LocalSpace,
-    pub(crate) shadows: Shadows,
-    pub(crate) casters: Vec<Caster>,
+    pub(crate) casters: Casters,
+    pub(crate) cast: CastShadows,
     pub(crate) meshes: SceneMeshes,
     pub(crate) pass: PicturePass,
     pub(crate) targets: Targets,
@@ -41,23 +37,15 @@ pub struct Renderer {
     lit_pipeline: wgpu::RenderPipeline,
     timer: StageTimer,
     counter_log: CounterLog,
-    frames: Vec<FrameCost>,
+    frames: Vec<CpuCost>,
     /// Waits of [`Renderer::draw_complete`], which are no waits of the pipeline's own.
     submissions: VecDeque<wgpu::SubmissionIndex>,
     waits_asked_for: u64,
 }
 
-/// A mesh that throws a shadow.
-#[derive(Debug)]
-pub(crate) struct Caster {
-    pub handle: MeshHandle,
-    pub local_from_object: DMat4,
-    pub topology: Arc<TopologyAwareMesh>,
-}
-
 /// What one frame cost the CPU.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FrameCost {
+pub(crate) struct CpuCost {
     pub cpu_ms: f64,
     pub upload_bytes: u64,
 }
@@ -69,17 +57,13 @@ impl Renderer {
     ///
     /// [`NewRendererError`] when something does not fit on the device.
     pub fn new(gpu: Gpu, scene: &Scene, options: &ShadowOptions) -> Result<Self, NewRendererError> {
-        let [width, height] = scene.size;
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        if width.max(height) > limit {
-            return Err(NewRendererError::SizeTooLarge { width, height, limit });
-        }
+        check_size(&gpu, scene.size)?;
         let local = LocalSpace::around(&scene.camera);
-        let mut shadows = Shadows::new(&gpu.device, options)?;
-        let casters = add_casters(&mut shadows, scene, &local)?;
+        let casters = Casters::new(scene, &local)?;
+        let mut cast = CastShadows::new(&gpu, &casters, options)?;
         let light_local = local.light(&scene.light);
-        prepare(&gpu, &mut shadows, &casters, &light_local)?;
-        let pass = PicturePass::new(&gpu, &shadows);
+        cast.prepare(&gpu, &casters, &light_local)?;
+        let pass = PicturePass::new(&gpu, &cast.shadows);
         let meshes = SceneMeshes::new(&gpu, scene, &local, pass.surface_layout())?;
         let lit_pipeline = pass.pipeline(&gpu, Shading::Lit);
         let targets = Targets::new(&gpu, scene.size);
@@ -96,8 +80,8 @@ impl Renderer {
             light_local,
             gpu,
             local,
-            shadows,
             casters,
+            cast,
             meshes,
             pass,
             targets,
@@ -115,29 +99,29 @@ impl Renderer {
         let clock = ThreadTime::now();
         self.light_local = self.local.light(light);
         self.uniforms = self.uniforms.with_light(&self.light_local);
-        prepare(&self.gpu, &mut self.shadows, &self.casters, &self.light_local)?;
-        if !self.pass.fits(&self.shadows) {
+        self.cast.prepare(&self.gpu, &self.casters, &self.light_local)?;
+        if !self.pass.fits(&self.cast.shadows) {
             // The light gained or lost its size.
-            self.pass = PicturePass::new(&self.gpu, &self.shadows);
+            self.pass = PicturePass::new(&self.gpu, &self.cast.shadows);
             self.lit_pipeline = self.pass.pipeline(&self.gpu, Shading::Lit);
         }
         let uniform_bytes = self.pass.upload(&self.gpu, &self.uniforms);
         let mut encoder = self.encoder();
-        self.shadows.encode(&mut encoder, &mut self.timer);
+        self.cast.shadows.encode(&mut encoder, &mut self.timer);
         let query = self.timer.begin("picture", &mut encoder);
         {
             let mut pass = self.targets.begin_pass(&mut encoder, self.background, StageTimer::render_writes(&query));
-            self.pass.draw(&mut pass, &self.lit_pipeline, &self.shadows, &self.meshes);
+            self.pass.draw(&mut pass, &self.lit_pipeline, &self.cast.shadows, &self.meshes);
         }
         self.timer.end(query, &mut encoder);
-        self.counter_log.record(&self.gpu, &self.shadows, &mut encoder);
+        self.counter_log.record(&self.gpu, &self.cast.shadows, &mut encoder);
         self.timer.resolve(&mut encoder);
         let submission = self.gpu.queue.submit([encoder.finish()]);
         self.timer.end_frame()?;
         let cpu_ms = 1000.0 * clock.elapsed().as_secs_f64();
 
-        let upload_bytes = uniform_bytes + self.shadows.stats().upload_bytes;
-        self.frames.push(FrameCost { cpu_ms, upload_bytes });
+        let upload_bytes = uniform_bytes + self.cast.shadows.stats().upload_bytes;
+        self.frames.push(CpuCost { cpu_ms, upload_bytes });
         self.timer.collect();
         self.pace(submission)?;
         self.gpu.check()?;
@@ -153,12 +137,8 @@ impl Renderer {
         for _ in 0..MAX_REPEATS {
             self.draw(light)?;
             self.waits_asked_for += 1;
-            match self.shadows.wait_for_counters(&self.gpu.device) {
-                // Frames without smoothies count nothing and miss nothing.
-                Err(CountersError::NoFrame) => return Ok(()),
-                Ok(_) if self.shadows.is_complete() => return Ok(()),
-                Ok(_) => {}
-                Err(error) => return Err(error.into()),
+            if self.cast.wait_until_done(&self.gpu)? {
+                return Ok(());
             }
         }
         Err(DrawError::Incomplete)
@@ -182,13 +162,12 @@ impl Renderer {
         self.gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
         self.timer.collect();
         let counters = self.counter_log.read(&self.gpu)?;
-        let edges = self.casters.iter().map(|caster| caster.topology.edges.len() as u64).sum();
-        let mut stats = self.shadows.stats();
+        let mut stats = self.cast.shadows.stats();
         stats.readback_waits -= self.waits_asked_for;
         Ok(Measurements::new(
             self.gpu.description(),
             self.gpu.frames_in_flight(),
-            edges,
+            self.casters.edge_count(),
             &self.frames,
             &counters,
             self.timer.stages(),
@@ -208,43 +187,4 @@ impl Renderer {
     pub(crate) fn encoder(&self) -> wgpu::CommandEncoder {
         self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
     }
-}
-
-/// Prepares a frame of the library, whose world is our local space.
-fn prepare(gpu: &Gpu, shadows: &mut Shadows, casters: &[Caster], light_local: &Light) -> Result<(), PrepareError> {
-    let casters: Vec<CasterInput<'_>> = (casters.iter())
-        .map(|caster| CasterInput {
-            mesh: caster.handle,
-            world_from_object: caster.local_from_object,
-            positions: Positions::OfMesh,
-        })
-        .collect();
-    shadows.prepare(&gpu.device, &gpu.queue, &FrameInput { light: light_local, casters: &casters })
-}
-
-/// Builds the topology of each mesh that casts once, however often it stands in the scene.
-fn add_casters(shadows: &mut Shadows, scene: &Scene, local: &LocalSpace) -> Result<Vec<Caster>, NewRendererError> {
-    let mut known = HashMap::new();
-    let mut casters = Vec::new();
-    for placed in scene.meshes.iter().filter(|placed| placed.casts && !placed.mesh.triangles.is_empty()) {
-        let key = Arc::as_ptr(&placed.mesh);
-        let (handle, topology) = match known.get(&key) {
-            Some((handle, topology)) => (*handle, Arc::clone(topology)),
-            None => {
-                let TriangleMesh { positions, triangles, .. } = &*placed.mesh;
-                let topology = TopologyAwareMesh::build(positions, triangles, &BuildOptions::default())
-                    .map_err(|source| NewRendererError::Topology { mesh: placed.name.clone(), source })?;
-                let topology = Arc::new(topology);
-                let handle = shadows.add_mesh(Arc::clone(&topology))?;
-                known.insert(key, (handle, Arc::clone(&topology)));
-                (handle, topology)
-            }
-        };
-        casters.push(Caster {
-            handle,
-            local_from_object: local.local_from_world() * placed.world_from_object,
-            topology,
-        });
-    }
-    Ok(casters)
 }

@@ -38,7 +38,7 @@ struct ShadeVertex {
     color: [f32; 3],
 }
 
-/// `Surface` in `shaders/raster/shade.wgsl`.
+/// `Surface` in `shaders/shared/surface.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Surface {
@@ -46,7 +46,8 @@ pub(crate) struct Surface {
     local_normal_from_object: [[f32; 4]; 3],
     base_color: [f32; 4],
     receives_shadow: u32,
-    padding: [u32; 3],
+    first_face: u32,
+    padding: [u32; 2],
 }
 
 /// The vertex buffer, as the shader sees it.
@@ -99,6 +100,7 @@ impl SceneMeshes {
         let mut buffers_of_mesh = HashMap::new();
         let mut draws = Vec::new();
         let mut surface_bytes = Vec::new();
+        let mut first_face = 0u32;
         let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment as usize;
         let surface_stride = size_of::<Surface>().next_multiple_of(alignment);
         for placed in scene.meshes.iter().filter(|placed| !placed.mesh.triangles.is_empty()) {
@@ -110,7 +112,9 @@ impl SceneMeshes {
                     buffers.len() - 1
                 }
             };
-            let surface = Surface::new(placed, local, &buffers[index].object_from_vertex);
+            let surface = Surface::new(placed, local, &buffers[index].object_from_vertex, first_face);
+            // Whoever asks for face ids checks beforehand that they fit.
+            first_face = first_face.saturating_add(placed.mesh.triangles.len() as u32);
             surface_bytes.extend_from_slice(bytemuck::bytes_of(&surface));
             surface_bytes.resize(surface_bytes.len().next_multiple_of(surface_stride), 0);
             draws.push(index);
@@ -192,7 +196,7 @@ fn extent(mesh: &TriangleMesh) -> (DVec3, f64) {
 }
 
 impl Surface {
-    fn new(placed: &SceneMesh, local: &LocalSpace, object_from_vertex: &DMat4) -> Self {
+    fn new(placed: &SceneMesh, local: &LocalSpace, object_from_vertex: &DMat4, first_face: u32) -> Self {
         let local_from_vertex = local.local_from_world() * placed.world_from_object * object_from_vertex;
         let normal_matrix = normal_matrix(DMat3::from_mat4(placed.world_from_object)).as_mat3();
         let column = |axis: glam::Vec3| axis.extend(0.0).to_array();
@@ -205,7 +209,8 @@ impl Surface {
             local_normal_from_object: [normal_matrix.x_axis, normal_matrix.y_axis, normal_matrix.z_axis].map(column),
             base_color: [base_color[0], base_color[1], base_color[2], replaces],
             receives_shadow: u32::from(placed.receives),
-            padding: [0; 3],
+            first_face,
+            padding: [0; 2],
         }
     }
 }

@@ -1,20 +1,26 @@
 //! WGSL text of the modules that only our own pictures need.
 
-/// Joins files of `shaders/`.
+/// Joins files of `shaders/`, the module's own first so that the lines of error messages are its lines.
 macro_rules! wgsl {
-    ($file:literal) => {
-        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $file))
+    ($($file:literal),+) => {
+        concat!($(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $file, ".wgsl")), "\n",)+)
     };
 }
 
 /// Shading from the eye; to be joined with the library's visibility function at bind group 2.
-pub(crate) const SHADE: &str = wgsl!("raster/shade.wgsl");
+pub(crate) const SHADE: &str = wgsl!("raster/shade", "shared/surface_light", "shared/surface");
+
+/// Shading from the eye by a visibility that was found before.
+pub(crate) const COMPOSE: &str = wgsl!("raster/compose", "shared/surface_light", "shared/surface");
+
+/// The points on which shadow falls.
+pub(crate) const RECEIVERS: &str = wgsl!("raster/receivers", "shared/surface");
+
+/// Visibility of those points; to be joined with the library's visibility function at bind group 1.
+pub(crate) const JUDGED_VISIBILITY: &str = wgsl!("raster/judged_visibility");
 
 /// Silhouette edges as lines.
-pub(crate) const SILHOUETTE_LINES: &str = wgsl!("raster/silhouette_lines.wgsl");
-
-/// The bind group of the light's maps in [`SHADE`].
-pub(crate) const VISIBILITY_GROUP: u32 = 2;
+pub(crate) const SILHOUETTE_LINES: &str = wgsl!("raster/silhouette_lines");
 
 #[cfg(test)]
 mod tests {
@@ -45,13 +51,21 @@ mod tests {
         found.unwrap_or_else(|| panic!("the module has a struct {name}"))
     }
 
+    /// The library's own tests check its functions; here one of that name will do.
+    const FUNCTION: &str =
+        "fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 { return 1.0; }";
+
     #[test]
-    fn shading_is_valid() {
-        // The library's own tests check its functions; here one of that name will do.
-        let function = "fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 { return 1.0; }";
-        let module = valid(&format!("{SHADE}\n{function}"));
-        assert_eq!(size_of_struct(&module, "Frame"), size_of::<FrameUniforms>());
-        assert_eq!(size_of_struct(&module, "Surface"), size_of::<Surface>());
+    fn what_draws_the_scene_is_valid() {
+        for module in [&format!("{SHADE}{FUNCTION}"), COMPOSE, RECEIVERS].map(valid) {
+            assert_eq!(size_of_struct(&module, "Frame"), size_of::<FrameUniforms>());
+            assert_eq!(size_of_struct(&module, "Surface"), size_of::<Surface>());
+        }
+    }
+
+    #[test]
+    fn judged_visibility_is_valid() {
+        valid(&format!("{JUDGED_VISIBILITY}{FUNCTION}"));
     }
 
     #[test]

@@ -5,8 +5,8 @@ use glam::DVec3;
 use wgpu::util::DeviceExt;
 
 use crate::Gpu;
-use crate::picture_pass::depth_state;
-use crate::renderer::Caster;
+use crate::casters::Casters;
+use crate::scene_pipeline::depth_state;
 use crate::shaders::SILHOUETTE_LINES;
 use crate::targets::COLOR_FORMAT;
 
@@ -51,7 +51,7 @@ const VERTICES_PER_LINE: u32 = 6;
 impl SilhouetteLines {
     pub fn new(
         gpu: &Gpu,
-        casters: &[Caster],
+        casters: &Casters,
         edges: &[SilhouetteEdge],
         eye_clip_from_local: [f32; 16],
         size: [u32; 2],
@@ -102,11 +102,12 @@ impl SilhouetteLines {
     }
 }
 
-fn line(casters: &[Caster], silhouette: &SilhouetteEdge) -> Option<Line> {
-    let caster = casters.get(silhouette.caster as usize)?;
-    let edge = caster.topology.edges.get(silhouette.edge_id as usize)?;
+fn line(casters: &Casters, silhouette: &SilhouetteEdge) -> Option<Line> {
+    let caster = casters.placed.get(silhouette.caster as usize)?;
+    let topology = casters.topology(caster);
+    let edge = topology.edges.get(silhouette.edge_id as usize)?;
     let end_local = |vertex: u32| {
-        let position = DVec3::from(caster.topology.positions[vertex as usize].map(f64::from));
+        let position = DVec3::from(topology.positions[vertex as usize].map(f64::from));
         caster.local_from_object.transform_point3(position).as_vec3().to_array()
     };
     let is_outline = silhouette.left == 0 || silhouette.right == 0;

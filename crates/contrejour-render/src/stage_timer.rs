@@ -27,6 +27,15 @@ pub struct TimedStage {
     pub times_ms: Vec<f64>,
 }
 
+/// How long one stage or pass of one frame took on the device.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassTime {
+    /// Its name.
+    pub name: String,
+    /// Time between its timestamps. Unit: milliseconds.
+    pub gpu_ms: f64,
+}
+
 /// Frames whose timestamps may be under way before the oldest is dropped.
 const MAX_PENDING_FRAMES: usize = 8;
 
@@ -56,9 +65,14 @@ impl StageTimer {
 
     /// Takes the times that have arrived.
     pub fn collect(&mut self) {
-        while let Some(passes) = self.profiler.process_finished_frame(self.timestamp_period) {
-            add_frame(&mut self.stages, &passes);
+        while let Some(frame) = self.take_frame() {
+            add_frame(&mut self.stages, frame);
         }
+    }
+
+    /// Takes the times of the oldest frame that have arrived, in the order in which its stages ran.
+    pub fn take_frame(&mut self) -> Option<Vec<PassTime>> {
+        self.profiler.process_finished_frame(self.timestamp_period).map(|passes| frame_times(&passes))
     }
 
     /// The stages in the order in which they first ran.
@@ -67,21 +81,25 @@ impl StageTimer {
     }
 }
 
-/// Adds a frame's passes; passes of the same name are one stage, and their times are added.
-fn add_frame(stages: &mut Vec<TimedStage>, passes: &[GpuTimerQueryResult]) {
-    let mut frame: Vec<(&str, f64)> = Vec::new();
+/// A frame's passes; passes of the same name are one stage, and their times are added.
+fn frame_times(passes: &[GpuTimerQueryResult]) -> Vec<PassTime> {
+    let mut frame: Vec<PassTime> = Vec::new();
     for pass in passes {
         let Some(time) = &pass.time else { continue };
-        let time_ms = 1000.0 * (time.end - time.start);
-        match frame.iter_mut().find(|(name, _)| *name == pass.label) {
-            Some((_, sum_ms)) => *sum_ms += time_ms,
-            None => frame.push((&pass.label, time_ms)),
+        let gpu_ms = 1000.0 * (time.end - time.start);
+        match frame.iter_mut().find(|stage| stage.name == pass.label) {
+            Some(stage) => stage.gpu_ms += gpu_ms,
+            None => frame.push(PassTime { name: pass.label.clone(), gpu_ms }),
         }
     }
-    for (name, time_ms) in frame {
+    frame
+}
+
+fn add_frame(stages: &mut Vec<TimedStage>, frame: Vec<PassTime>) {
+    for PassTime { name, gpu_ms } in frame {
         match stages.iter_mut().find(|stage| stage.name == name) {
-            Some(stage) => stage.times_ms.push(time_ms),
-            None => stages.push(TimedStage { name: name.into(), times_ms: vec![time_ms] }),
+            Some(stage) => stage.times_ms.push(gpu_ms),
+            None => stages.push(TimedStage { name, times_ms: vec![gpu_ms] }),
         }
     }
 }
@@ -123,8 +141,8 @@ mod tests {
     #[test]
     fn passes_of_one_name_are_one_stage() {
         let mut stages = Vec::new();
-        add_frame(&mut stages, &[pass("b", 0.0, 1.0), pass("a", 1.0, 1.5), pass("b", 2.0, 2.25)]);
-        add_frame(&mut stages, &[pass("a", 3.0, 3.5)]);
+        add_frame(&mut stages, frame_times(&[pass("b", 0.0, 1.0), pass("a", 1.0, 1.5), pass("b", 2.0, 2.25)]));
+        add_frame(&mut stages, frame_times(&[pass("a", 3.0, 3.5)]));
         assert_eq!(
             stages,
             [
@@ -136,8 +154,6 @@ mod tests {
 
     #[test]
     fn a_pass_without_timestamps_counts_for_nothing() {
-        let mut stages = Vec::new();
-        add_frame(&mut stages, &[GpuTimerQueryResult { time: None, ..pass("a", 0.0, 1.0) }]);
-        assert!(stages.is_empty());
+        assert!(frame_times(&[GpuTimerQueryResult { time: None, ..pass("a", 0.0, 1.0) }]).is_empty());
     }
 }

@@ -19,20 +19,60 @@ pub(crate) struct Targets {
     depth_view: wgpu::TextureView,
 }
 
+/// A picture is larger than the device's textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "a picture of {width}x{height} is too large, the graphics device allows {limit} pixels a side; choose a smaller size"
+)]
+pub struct SizeTooLarge {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Most pixels a side.
+    pub limit: u32,
+}
+
+/// Checks that the device can hold a picture.
+pub(crate) fn check_size(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<(), SizeTooLarge> {
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    if width.max(height) > limit { Err(SizeTooLarge { width, height, limit }) } else { Ok(()) }
+}
+
+/// A texture of one level that passes draw into.
+pub(crate) fn target_texture(
+    gpu: &Gpu,
+    label: &str,
+    size: [u32; 2],
+    sample_count: u32,
+    format: wgpu::TextureFormat,
+    other_usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | other_usage,
+        view_formats: &[],
+    })
+}
+
+/// A depth buffer that is cleared to the farthest and forgotten after its pass.
+pub(crate) fn passing_depth(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+        stencil_ops: None,
+    }
+}
+
 impl Targets {
     pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
-        let texture = |label, format, sample_count, usage| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-                view_formats: &[],
-            })
-        };
+        let texture =
+            |label, format, sample_count, usage| target_texture(gpu, label, size, sample_count, format, usage);
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let none = wgpu::TextureUsages::empty();
         let picture = texture("picture", COLOR_FORMAT, 1, wgpu::TextureUsages::COPY_SRC);
@@ -65,11 +105,7 @@ impl Targets {
                 resolve_target,
                 ops: wgpu::Operations { load: wgpu::LoadOp::Clear(background), store },
             })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.depth_view,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
+            depth_stencil_attachment: Some(passing_depth(&self.depth_view)),
             timestamp_writes,
             ..Default::default()
         })

@@ -43,7 +43,7 @@ impl Renderer {
     }
 
     fn map_views(&self) -> Result<Vec<View>, ReadError> {
-        let maps = self.shadows.maps();
+        let maps = self.cast.shadows.maps();
         let mut views = Vec::new();
         let mut push = |name, MapView { picture, legend }| views.push(View { name, picture, legend });
         if let Some(map) = maps.shadow_depth {
@@ -96,7 +96,7 @@ impl Renderer {
     }
 
     fn silhouette_picture(&self) -> Result<RgbaImage, ReadError> {
-        let edges = read_silhouettes(&self.gpu, &self.shadows)?;
+        let edges = read_silhouettes(&self.gpu, &self.cast.shadows)?;
         let size = [self.targets.picture.width(), self.targets.picture.height()];
         let lines = SilhouetteLines::new(&self.gpu, &self.casters, &edges, self.uniforms.eye_clip_from_local, size);
         self.draw_view(Shading::Lit, self.background, Some(&lines))
@@ -113,7 +113,7 @@ impl Renderer {
         let mut encoder = self.encoder();
         {
             let mut pass = self.targets.begin_pass(&mut encoder, background, None);
-            self.pass.draw(&mut pass, &pipeline, &self.shadows, &self.meshes);
+            self.pass.draw(&mut pass, &pipeline, &self.cast.shadows, &self.meshes);
             if let Some(lines) = lines {
                 lines.draw(&mut pass);
             }

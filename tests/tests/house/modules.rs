@@ -9,6 +9,9 @@ use contrejour_plan::VisibilityKind;
 /// The renderer's bind group for the light's maps.
 const SHADE_VISIBILITY_GROUP: u32 = 2;
 
+/// The judge's bind group for the light's maps.
+const JUDGED_VISIBILITY_GROUP: u32 = 1;
+
 /// A module's name and whole text.
 pub struct Module {
     pub name: String,
@@ -45,12 +48,24 @@ pub fn all() -> Vec<Module> {
     let library = contrejour_gpu::shaders::all();
     let mut modules: Vec<_> =
         library.map(|module| Module { name: module.name.into(), wgsl: module.wgsl.into() }).collect();
-    let shade = shader_file("raster/shade.wgsl");
     for kind in VisibilityKind::examples() {
-        let visibility = visibility_wgsl(kind, SHADE_VISIBILITY_GROUP);
-        modules.push(Module { name: format!("shade+{kind:?}"), wgsl: format!("{shade}\n{visibility}") });
+        for (own, files, group) in [
+            ("shade", &["raster/shade", "shared/surface_light", "shared/surface"][..], SHADE_VISIBILITY_GROUP),
+            ("judged_visibility", &["raster/judged_visibility"], JUDGED_VISIBILITY_GROUP),
+        ] {
+            let own_text = files.iter().map(|file| shader_file(&format!("{file}.wgsl")));
+            let text: Vec<_> = own_text.chain([visibility_wgsl(kind, group)]).collect();
+            modules.push(Module { name: format!("{own}+{kind:?}"), wgsl: text.join("\n") });
+        }
     }
-    modules.push(Module { name: "silhouette_lines".into(), wgsl: shader_file("raster/silhouette_lines.wgsl") });
+    for (name, files) in [
+        ("receivers", &["raster/receivers", "shared/surface"][..]),
+        ("compose", &["raster/compose", "shared/surface_light", "shared/surface"]),
+        ("silhouette_lines", &["raster/silhouette_lines"]),
+    ] {
+        let text: Vec<_> = files.iter().map(|file| shader_file(&format!("{file}.wgsl"))).collect();
+        modules.push(Module { name: name.into(), wgsl: text.join("\n") });
+    }
     modules
 }
 

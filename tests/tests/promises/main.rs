@@ -3,6 +3,7 @@
 mod closed;
 mod exact;
 mod facing;
+mod judged;
 mod left_out;
 mod no_gaps;
 mod nothing_lost;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         smoothie_ways::trials(),
         left_out::trials(),
         pictures::trials(),
+        judged::trials(),
     ];
     contrejour_tests::harness::run(trials.into_iter().flatten().collect())
 }

@@ -1,0 +1,142 @@
+//! A technique that takes part.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use contrejour_gpu::{ShadowOptions, Shadows};
+use contrejour_plan::{FramePlan, Light, Outputs, ShadowSettings};
+use cpu_time::ThreadTime;
+
+use super::JudgedScene;
+use super::error::NewContestantError;
+use super::visibility_pass::{VISIBILITY_FORMAT, VisibilityPass};
+use crate::casters::CastShadows;
+use crate::error::{DrawError, MAX_REPEATS};
+use crate::readback::{ReadError, read_texture};
+use crate::stage_timer::{PassTime, StageTimer};
+use crate::targets::target_texture;
+
+/// Shadows of a judged scene with settings of their own, and the visibility that they give its receivers.
+#[derive(Debug)]
+pub struct Contestant {
+    scene: Arc<JudgedScene>,
+    cast: CastShadows,
+    pass: VisibilityPass,
+    target: wgpu::Texture,
+    target_view: wgpu::TextureView,
+    timer: StageTimer,
+}
+
+/// What a frame cost: light and casters to the device, the stages, the maps, and the visibility of all receivers.
+/// Nothing is shaded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameCost {
+    /// CPU time of the thread that prepares, records and submits the frame. Unit: milliseconds.
+    pub cpu_ms: f64,
+    /// Time on the wall from the begin of the submission until the device is done, which no other frame shares. On a
+    /// [software device](crate::Gpu::is_software) this is what tells techniques apart. Unit: milliseconds.
+    pub wall_ms: f64,
+    /// Time of each stage and pass on the device, in their order; the last is `visibility`. Empty where the device has
+    /// no timestamps.
+    pub passes: Vec<PassTime>,
+    /// Whether the frame was like the one before, so that its maps stood and nothing but visibility was asked for: no
+    /// time of the technique. [`rocked`](super::rocked) moves the light by a hair against that.
+    pub is_unchanged: bool,
+    /// How often the frame was drawn before, because its lists were too short; only the last time was measured.
+    pub repeats: usize,
+}
+
+impl Contestant {
+    pub(super) fn new(scene: Arc<JudgedScene>, settings: &ShadowSettings) -> Result<Self, NewContestantError> {
+        let JudgedScene { gpu, local, casters, receivers, light } = &*scene;
+        let options = ShadowOptions { settings: *settings, outputs: Outputs::Maps, ..ShadowOptions::default() };
+        let mut cast = CastShadows::new(gpu, casters, &options)?;
+        cast.prepare(gpu, casters, &local.light(light))?;
+        let pass = VisibilityPass::new(gpu, &cast.shadows, receivers);
+        let usage = wgpu::TextureUsages::COPY_SRC;
+        let target = target_texture(gpu, "judged visibility", receivers.size(), 1, VISIBILITY_FORMAT, usage);
+        let target_view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let timer = StageTimer::new(gpu)?;
+        gpu.check()?;
+        Ok(Self { scene, cast, pass, target, target_view, timer })
+    }
+
+    /// Draws a frame until its lists held everything, and waits for the device each time; returns the cost of the last.
+    ///
+    /// The first frames also compile and grow what later ones reuse: leave them out of what you report.
+    ///
+    /// # Errors
+    ///
+    /// [`DrawError`] when the light is no light or the device fails.
+    pub fn draw(&mut self, light: &Light) -> Result<FrameCost, DrawError> {
+        let light_local = self.scene.local.light(light);
+        for repeats in 0..MAX_REPEATS {
+            let cost = FrameCost { repeats, ..self.draw_once(&light_local)? };
+            if self.cast.wait_until_done(&self.scene.gpu)? {
+                return Ok(cost);
+            }
+        }
+        Err(DrawError::Incomplete)
+    }
+
+    fn draw_once(&mut self, light_local: &Light) -> Result<FrameCost, DrawError> {
+        let JudgedScene { gpu, casters, receivers, .. } = &*self.scene;
+        let cpu_clock = ThreadTime::now();
+        self.cast.prepare(gpu, casters, light_local)?;
+        let shadows = &mut self.cast.shadows;
+        if !self.pass.fits(shadows) {
+            // The light gained or lost its size.
+            self.pass = VisibilityPass::new(gpu, shadows, receivers);
+        }
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("judged") });
+        shadows.encode(&mut encoder, &mut self.timer);
+        self.pass.encode(&mut encoder, shadows, receivers, &self.target_view, &mut self.timer);
+        self.timer.resolve(&mut encoder);
+        let commands = encoder.finish();
+        let wall_clock = Instant::now();
+        let submission = gpu.queue.submit([commands]);
+        let cpu_ms = 1000.0 * cpu_clock.elapsed().as_secs_f64();
+        gpu.device.poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None })?;
+        let wall_ms = 1000.0 * wall_clock.elapsed().as_secs_f64();
+
+        // Only now does the timer ask for its results, so that this is in neither time.
+        self.timer.end_frame()?;
+        gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+        gpu.check()?;
+        let mut passes = Vec::new();
+        while let Some(frame) = self.timer.take_frame() {
+            passes = frame;
+        }
+        Ok(FrameCost { cpu_ms, wall_ms, passes, is_unchanged: shadows.stats().is_unchanged, repeats: 0 })
+    }
+
+    /// Visibility of the light from each receiver in the last frame, rows from the top, 0 dark to 1 lit; 1 where there
+    /// is no receiver. Waits for the device.
+    ///
+    /// # Errors
+    ///
+    /// [`ReadError`] when the device fails.
+    pub fn visibility(&self) -> Result<Vec<f32>, ReadError> {
+        let texels = read_texture(&self.scene.gpu, &self.target, size_of::<f32>() as u32)?;
+        Ok(bytemuck::pod_collect_to_vec(&texels))
+    }
+
+    /// The shadows themselves: their maps, plan and counters.
+    pub fn shadows(&self) -> &Shadows {
+        &self.cast.shadows
+    }
+
+    /// Bytes of the light's maps in the last frame.
+    pub fn map_bytes(&self) -> u64 {
+        self.plan_sum(|plan| plan.textures.iter().map(|texture| texture.bytes).sum())
+    }
+
+    /// Bytes of the buffers in the last frame: meshes, lists, records.
+    pub fn buffer_bytes(&self) -> u64 {
+        self.plan_sum(|plan| plan.buffers.iter().map(|buffer| buffer.bytes).sum())
+    }
+
+    fn plan_sum(&self, sum: impl FnOnce(&FramePlan) -> u64) -> u64 {
+        self.cast.shadows.plan().map_or(0, sum)
+    }
+}

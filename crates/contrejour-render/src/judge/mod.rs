@@ -1,0 +1,135 @@
+//! One scene, the points that its picture shows, and any number of shadow techniques that say how visible the light is
+//! from each of them.
+//!
+//! Shading is kept apart: a technique is judged by its visibility alone, against the truth at the same points, and timed
+//! by the pass that finds it. [`Judge::compose`] shades a picture from any visibility, a technique's or the truth.
+
+mod compose_pass;
+mod contestant;
+mod error;
+mod faces;
+mod receiver_pass;
+mod receivers;
+mod rocking;
+mod visibility_pass;
+
+use std::sync::Arc;
+
+use contrejour_plan::{Light, ShadowSettings};
+use contrejour_scene::Scene;
+use image::RgbaImage;
+
+use crate::casters::Casters;
+use crate::frame_uniforms::FrameUniforms;
+use crate::readback::ReadError;
+use crate::scene_meshes::SceneMeshes;
+use crate::targets::{Targets, check_size};
+use crate::{Gpu, LocalSpace};
+
+use compose_pass::ComposePass;
+use faces::{first_faces, with_separate_faces};
+use receiver_pass::{ReceiverPass, ReceiverTarget};
+
+pub use contestant::{Contestant, FrameCost};
+pub use error::{ComposeError, NewContestantError, NewJudgeError};
+pub use faces::TooManyFaces;
+pub use receivers::{Receiver, Receivers};
+pub use rocking::rocked;
+
+/// A scene on the device, to judge shadow techniques by.
+///
+/// Pictures have one sample a pixel, so that each pixel stands for one point of one face.
+#[derive(Debug)]
+pub struct Judge {
+    scene: Arc<JudgedScene>,
+    first_faces: Vec<u32>,
+    meshes: SceneMeshes,
+    compose: ComposePass,
+    targets: Targets,
+    uniforms: FrameUniforms,
+    background: wgpu::Color,
+}
+
+/// What all contestants share.
+#[derive(Debug)]
+struct JudgedScene {
+    gpu: Gpu,
+    local: LocalSpace,
+    casters: Casters,
+    receivers: ReceiverTarget,
+    /// The scene's own light.
+    light: Light,
+}
+
+impl Judge {
+    /// Uploads a scene and draws its receivers, in the size of the scene's picture.
+    ///
+    /// # Errors
+    ///
+    /// [`NewJudgeError`] when something does not fit on the device.
+    pub fn new(mut gpu: Gpu, scene: &Scene) -> Result<Self, NewJudgeError> {
+        gpu.sample_count = 1;
+        check_size(&gpu, scene.size)?;
+        let first_faces = first_faces(scene)?;
+        let local = LocalSpace::around(&scene.camera);
+        let casters = Casters::new(scene, &local)?;
+        let pass = ReceiverPass::new(&gpu);
+        let meshes = SceneMeshes::new(&gpu, &with_separate_faces(scene), &local, pass.surface_layout())?;
+        let uniforms = FrameUniforms::new(scene, &local.camera(&scene.camera));
+        let receivers = pass.draw(&gpu, scene.size, &meshes, &uniforms);
+        let compose = ComposePass::new(&gpu, scene.size, pass.surface_layout());
+        let targets = Targets::new(&gpu, scene.size);
+        gpu.check()?;
+        let [red, green, blue] = scene.background.map(f64::from);
+        Ok(Self {
+            scene: Arc::new(JudgedScene { gpu, local, casters, receivers, light: scene.light }),
+            first_faces,
+            meshes,
+            compose,
+            targets,
+            uniforms,
+            background: wgpu::Color { r: red, g: green, b: blue, a: 1.0 },
+        })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.scene.gpu
+    }
+
+    /// The space of the receivers' points.
+    pub fn local_space(&self) -> &LocalSpace {
+        &self.scene.local
+    }
+
+    /// A technique that takes part: its shadows of the scene's casters, with settings of its own.
+    ///
+    /// # Errors
+    ///
+    /// [`NewContestantError`] when the settings or the device do not allow it.
+    pub fn contestant(&self, settings: &ShadowSettings) -> Result<Contestant, NewContestantError> {
+        Contestant::new(Arc::clone(&self.scene), settings)
+    }
+
+    /// The points from which visibility is asked for; waits for the device.
+    ///
+    /// # Errors
+    ///
+    /// [`ReadError`] when the device fails.
+    pub fn receivers(&self) -> Result<Receivers, ReadError> {
+        self.scene.receivers.read(&self.scene.gpu, &self.first_faces)
+    }
+
+    /// The shaded picture under a light of which each pixel sees the given part: rows from the top, as
+    /// [`Receivers::points`] and [`Contestant::visibility`] have them. Pixels without a receiver need not be right.
+    ///
+    /// # Errors
+    ///
+    /// [`ComposeError`] when the values are not one for each pixel or not finite, or the device fails.
+    pub fn compose(&self, light: &Light, visibility: &[f32]) -> Result<RgbaImage, ComposeError> {
+        let Self { scene, compose, targets, meshes, .. } = self;
+        let uniforms = self.uniforms.with_light(&scene.local.light(light));
+        compose.upload(&scene.gpu, &uniforms, visibility)?;
+        Ok(compose.draw(&scene.gpu, targets, self.background, meshes)?)
+    }
+}

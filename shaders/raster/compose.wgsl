@@ -1,0 +1,11 @@
+// Shades the scene from the eye, by a visibility that was found before, one value a pixel.
+// One vertex invocation = one vertex of one mesh; one fragment invocation = one pixel of one triangle.
+// Reads frame, surface and visibility.
+
+@group(2) @binding(0) var visibility: texture_2d<f32>;
+
+@fragment
+fn fragment_compose(vertex: ShadeVertex) -> @location(0) vec4f {
+    let face_normal = face_normal_local(vertex.position_local, vertex.centre_local);
+    return shaded(vertex, face_normal, textureLoad(visibility, vec2u(vertex.clip.xy), 0).x);
+}

@@ -1,0 +1,30 @@
+// Fills the receiver target: for each pixel the point on which shadow falls, its face and the face's normal.
+// One vertex invocation = one corner of one face; one fragment invocation = one pixel of one triangle, one sample each.
+// Reads frame and surface. Corners are not shared by faces, so that a vertex's index tells its face.
+
+struct ReceiverVertex {
+    @builtin(position) clip: vec4f,
+    @location(0) position_local: vec3f,
+    @location(1) @interpolate(flat) face_id: u32,
+}
+
+struct Receiver {
+    // Bits of the position; w: one more than the face's id, so that 0 is no receiver.
+    @location(0) point: vec4u,
+    @location(1) normal_local: vec4f,
+}
+
+@vertex
+fn vertex_receivers(@builtin(vertex_index) corner: u32, @location(0) position: vec3f) -> ReceiverVertex {
+    let position_local = local_position(position);
+    let clip = frame.eye_clip_from_local * vec4f(position_local, 1.0);
+    return ReceiverVertex(clip, position_local, surface.first_face + corner / 3u);
+}
+
+@fragment
+fn fragment_receivers(vertex: ReceiverVertex) -> Receiver {
+    let normal = face_normal_local(vertex.position_local, vertex.position_local);
+    // What receives no shadow hides what is behind it, and is no receiver.
+    let id = select(0u, vertex.face_id + 1u, surface.receives_shadow == 1u);
+    return Receiver(vec4u(bitcast<vec3u>(vertex.position_local), id), vec4f(normal, 0.0));
+}

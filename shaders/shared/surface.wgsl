@@ -1,0 +1,50 @@
+// A mesh of the scene as the eye sees it.
+//
+// Local space is the world, moved and scaled so that what the eye looks at lies near 1.
+
+struct Frame {
+    eye_clip_from_local: mat4x4f,
+    eye_local: vec4f,
+    // Position and 1, or direction towards the light and 0.
+    light_local: vec4f,
+    // Unit axis away from the light; w: cosine of half the cone, or -2 where the light has no cone.
+    light_axis_local: vec4f,
+    // Radiance of a white surface that faces the light at its target; w: squared distance of the target, or 0 where the
+    // light does not fall off.
+    light_color: vec4f,
+    ambient: vec4f,
+}
+
+struct Surface {
+    local_from_vertex: mat4x4f,
+    // Columns of the normal matrix; the length of its results does not matter.
+    local_normal_from_object: mat3x3f,
+    // w: 1 replaces the vertex colours, 0 keeps them.
+    base_color: vec4f,
+    receives_shadow: u32,
+    // Faces of the meshes before this one.
+    first_face: u32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(0) var<uniform> surface: Surface;
+
+fn local_position(position: vec3f) -> vec3f {
+    return (surface.local_from_vertex * vec4f(position, 1.0)).xyz;
+}
+
+// The triangle's own unit normal, turned to the eye. It needs no winding, so meshes may be wound as they like.
+// `centre_local` is the position at the pixel's centre, also where that is outside the triangle: for derivatives.
+fn face_normal_local(position_local: vec3f, centre_local: vec3f) -> vec3f {
+    let towards_eye = normalize(frame.eye_local.xyz - position_local);
+    let normal = cross(dpdx(centre_local), dpdy(centre_local));
+    let length_squared = dot(normal, normal);
+    if length_squared > 0.0 {
+        return facing(normal * inverseSqrt(length_squared), towards_eye);
+    }
+    return towards_eye;
+}
+
+fn facing(normal: vec3f, direction: vec3f) -> vec3f {
+    return select(-normal, normal, dot(normal, direction) >= 0.0);
+}
