@@ -6,12 +6,6 @@ use std::path::{Path, PathBuf};
 use contrejour_gpu::shaders::visibility_wgsl;
 use contrejour_plan::VisibilityKind;
 
-/// The renderer's bind group for the light's maps.
-const SHADE_VISIBILITY_GROUP: u32 = 2;
-
-/// The judge's bind group for the light's maps.
-const JUDGED_VISIBILITY_GROUP: u32 = 1;
-
 /// A module's name and whole text.
 pub struct Module {
     pub name: String,
@@ -48,14 +42,18 @@ pub fn all() -> Vec<Module> {
     let library = contrejour_gpu::shaders::all();
     let mut modules: Vec<_> =
         library.map(|module| Module { name: module.name.into(), wgsl: module.wgsl.into() }).collect();
+    let joined = |files: &[&str]| -> String {
+        let text: Vec<_> = files.iter().map(|file| shader_file(&format!("{file}.wgsl"))).collect();
+        text.join("\n")
+    };
     for kind in VisibilityKind::examples() {
+        // At the bind groups that the renderer's modules leave to the library.
         for (own, files, group) in [
-            ("shade", &["raster/shade", "shared/surface_light", "shared/surface"][..], SHADE_VISIBILITY_GROUP),
-            ("judged_visibility", &["raster/judged_visibility"], JUDGED_VISIBILITY_GROUP),
+            ("shade", &["raster/shade", "shared/surface_light", "shared/surface"][..], 2),
+            ("judged_visibility", &["raster/judged_visibility"], 1),
         ] {
-            let own_text = files.iter().map(|file| shader_file(&format!("{file}.wgsl")));
-            let text: Vec<_> = own_text.chain([visibility_wgsl(kind, group)]).collect();
-            modules.push(Module { name: format!("{own}+{kind:?}"), wgsl: text.join("\n") });
+            let wgsl = format!("{}\n{}", joined(files), visibility_wgsl(kind, group));
+            modules.push(Module { name: format!("{own}+{kind:?}"), wgsl });
         }
     }
     for (name, files) in [
@@ -63,8 +61,7 @@ pub fn all() -> Vec<Module> {
         ("compose", &["raster/compose", "shared/surface_light", "shared/surface"]),
         ("silhouette_lines", &["raster/silhouette_lines"]),
     ] {
-        let text: Vec<_> = files.iter().map(|file| shader_file(&format!("{file}.wgsl"))).collect();
-        modules.push(Module { name: name.into(), wgsl: text.join("\n") });
+        modules.push(Module { name: name.into(), wgsl: joined(files) });
     }
     modules
 }
