@@ -6,6 +6,9 @@ use super::super::number::{bytes, grouped, percent, significant};
 use super::super::{Contestant, Group, Report};
 use super::table::{boxed, number, ratio, timing};
 
+/// How many columns belong together, after that of the names.
+const GROUPS: [usize; 8] = [3, 3, 2, 1, 2, 4, 2, 2];
+
 pub(super) fn tables(report: &Report) -> Markup {
     html! {
         @if !report.groups.is_empty() {
@@ -21,7 +24,7 @@ pub(super) fn tables(report: &Report) -> Markup {
                         strong { (scene) } " at " (group.map_size) " texels "
                         small { (group.contestants.len()) " variants, " (grouped(group.faces)) " faces" }
                     }
-                    (boxed(&format!("Every variant: {scene}, {} texels", group.map_size), head(), body(group)))
+                    (boxed(&format!("Every variant: {scene}, {} texels", group.map_size), &GROUPS, head(), body(group)))
                     (truth(group))
                 }
             }

@@ -18,8 +18,8 @@ const WIDTH: i32 = 440;
 const CHART_HEIGHT: i32 = 300;
 /// Height of a line of the legend in pixels.
 const LEGEND_LINE: i32 = 19;
-/// Labels up to this many characters go in two columns.
-const LEGEND_SHORT: usize = 26;
+/// Room in the legend for a sample and the gap after a label in pixels.
+const LEGEND_SAMPLE: i32 = 46;
 /// Size of all text in pixels.
 const TEXT: i32 = 13;
 
@@ -30,7 +30,7 @@ type Root<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 pub(super) fn draw(plot: &Plot, x: Ticks, y: Ticks, title: &str, plot_use: PlotUse) -> Result<String, PlotError> {
     let legend = Legend::of(&plot.series);
-    let height = CHART_HEIGHT + legend.lines * LEGEND_LINE + LEGEND_LINE / 2;
+    let height = CHART_HEIGHT + (legend.lines + 1) * LEGEND_LINE;
     let mut svg = String::new();
     let root = SVGBackend::with_string(&mut svg, ((WIDTH * UNIT) as u32, (height * UNIT) as u32)).into_drawing_area();
     draw_all(&root, plot, x, y, &legend).map_err(|error| PlotError::Draw(error.to_string()))?;
@@ -109,24 +109,34 @@ fn line(colour: RGBAColor) -> ShapeStyle {
 
 type DrawingError = DrawingAreaErrorKind<<SVGBackend<'static> as DrawingBackend>::ErrorType>;
 
-/// Where the legend's entries stand: in one column or two, filled by line.
+/// Where the legend's entries stand: one after the other, in as many lines as that takes.
 struct Legend {
-    columns: usize,
+    /// Left end of each entry in pixels, and its line.
+    places: Vec<(i32, i32)>,
     lines: i32,
 }
 
 impl Legend {
     fn of(series: &[Series]) -> Self {
-        let is_short = |series: &Series| series.label.chars().count() <= LEGEND_SHORT;
-        let columns = if series.iter().all(is_short) { 2 } else { 1 };
-        Self { columns, lines: series.len().div_ceil(columns) as i32 }
+        let (mut x, mut line) = (0, 0);
+        let places = series.iter().map(|series| {
+            // Letters are about 0.58 times as wide as the text is high; SVG does not tell.
+            let width = LEGEND_SAMPLE + series.label.chars().count() as i32 * TEXT * 58 / 100;
+            if x > 0 && x + width > WIDTH {
+                (x, line) = (0, line + 1);
+            }
+            let place = (x, line);
+            x += width;
+            place
+        });
+        let places = places.collect();
+        Self { places, lines: line + 1 }
     }
 
-    /// Middle of an entry's mark.
+    /// Middle of an entry's sample.
     fn place(&self, number: usize) -> (i32, i32) {
-        let [column, line] = [number % self.columns, number / self.columns].map(|i| i as i32);
-        let x = 22 + column * WIDTH / self.columns as i32;
-        (x * UNIT, (line * LEGEND_LINE + LEGEND_LINE / 2) * UNIT)
+        let (x, line) = self.places[number];
+        ((x + 14) * UNIT, (line * LEGEND_LINE + LEGEND_LINE) * UNIT)
     }
 }
 
