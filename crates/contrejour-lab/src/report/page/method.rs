@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::super::Report;
-use super::super::number::{grouped, percent, significant};
+use super::super::number::{grouped, significant};
 use crate::metrics::{FLIP_PIXELS_PER_DEGREE, NOT_UMBRA_FROM, UMBRA_UP_TO};
 
 pub(super) fn text(report: &Report) -> Markup {
@@ -13,8 +13,11 @@ pub(super) fn text(report: &Report) -> Markup {
             dt { "Truth" }
             dd {
                 "The share of the area light that a receiver point sees, ray-traced from the points that the rasteriser "
-                "shades, with at most " (grouped(header.truth_samples_max)) " light samples a pixel, fewer where the standard "
-                "error has fallen to " (significant(header.truth_target_error, 2)) "."
+                "shades, with at most " (grouped(header.truth_samples_max)) " light samples a pixel"
+                @if header.truth_target_error > 0.0 {
+                    ", fewer where the standard error has fallen to " (significant(header.truth_target_error, 2))
+                }
+                "."
             }
             dt { "RMSE, mean, 99 %" }
             dd {
@@ -25,8 +28,7 @@ pub(super) fn text(report: &Report) -> Markup {
             dt { "Umbra" }
             dd {
                 "Too large: visibility is at most " (UMBRA_UP_TO) " in the technique and at least " (NOT_UMBRA_FROM)
-                " in truth; too small: the reverse. As a share of the receiver pixels; " (percent(0.01)) " is a "
-                "hundredth of the picture's surfaces."
+                " in truth; too small: the reverse. As a share of the receiver pixels."
             }
             dt { "FLIP" }
             dd {

@@ -61,29 +61,39 @@ fn draw_all(root: &Root, plot: &Plot, x: Ticks, y: Ticks, legend: &Legend) -> Re
     let named = text.clone().pos(Pos::new(HPos::Left, VPos::Center));
     chart_area.draw(&Text::new(plot.y.label.clone(), (4 * UNIT, 11 * UNIT), named.clone()))?;
 
-    for (number, series) in plot.series.iter().enumerate() {
+    let marks = marks(&plot.series);
+    for (series, mark) in plot.series.iter().zip(&marks) {
         let points: Vec<_> = series.points.iter().map(|&[x, y]| chart.backend_coord(&(x, y))).collect();
-        draw_series(&chart_area, &points, series.stroke, number)?;
+        draw_series(&chart_area, &points, series.stroke, mark)?;
     }
-    for (number, series) in plot.series.iter().enumerate() {
+    for (number, (series, mark)) in plot.series.iter().zip(&marks).enumerate() {
         let (x, y) = legend.place(number);
         let ends = [(x - 9 * UNIT, y), (x + 9 * UNIT, y)];
         let points: &[_] = if matches!(series.stroke, Stroke::Dashed | Stroke::Line) { &ends } else { &[(x, y)] };
         match series.stroke {
             // One mark in the middle of the sample's line.
             Stroke::Line => {
-                legend_area.draw(&PathElement::new(points, line(Mark::of(number).colour.into())))?;
-                legend_area.draw(&Mark::of(number).at((x, y), 4 * UNIT))?;
+                legend_area.draw(&PathElement::new(points, line(mark.colour.into())))?;
+                legend_area.draw(&mark.at((x, y), 4 * UNIT))?;
             }
-            stroke => draw_series(&legend_area, points, stroke, number)?,
+            stroke => draw_series(&legend_area, points, stroke, mark)?,
         }
         legend_area.draw(&Text::new(series.label.clone(), (x + 15 * UNIT, y), named.clone()))?;
     }
     root.present()
 }
 
-fn draw_series(area: &Root, points: &[(i32, i32)], stroke: Stroke, number: usize) -> Result<(), DrawingError> {
-    let mark = Mark::of(number);
+/// A mark for each series. A fit takes that of the series before it.
+fn marks(series: &[Series]) -> Vec<Mark> {
+    let mut own = 0;
+    let number = |series: &Series| {
+        own += usize::from(series.stroke != Stroke::Dashed);
+        usize::saturating_sub(own, 1)
+    };
+    series.iter().map(number).map(Mark::of).collect()
+}
+
+fn draw_series(area: &Root, points: &[(i32, i32)], stroke: Stroke, mark: &Mark) -> Result<(), DrawingError> {
     match stroke {
         Stroke::Line => {
             area.draw(&PathElement::new(points, line(mark.colour.into())))?;
@@ -158,4 +168,21 @@ fn finish(drawing: &str, title: &str, height: i32, plot_use: PlotUse) -> String 
 {style}{inner}"#,
         inner = inner.trim_start(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fit_has_the_colour_of_its_series() {
+        let series = [Stroke::Marks, Stroke::Dashed, Stroke::Line, Stroke::Dashed, Stroke::Line].map(|stroke| Series {
+            label: String::new(),
+            points: Vec::new(),
+            stroke,
+        });
+        assert_eq!(marks(&series), [0, 0, 1, 1, 2].map(Mark::of));
+        // A model without a series before it has the first.
+        assert_eq!(marks(&series[1..2]), [Mark::of(0)]);
+    }
 }
