@@ -36,8 +36,8 @@ pub enum Disagreement {
     },
     /// A time ratio that is outside the spread that the other report gives.
     #[error(
-        "{scene} at {map_size}, {label}: {clock} time is {found} times the plain shadow map's, and {low} to {high} times in \
-         the other report; measure more frames on a quieter machine"
+        "{scene} at {map_size}, {label}: {clock} time is {found} times the plain shadow map's, and {low} to {high} \
+         times in the other report; measure more frames on a quieter machine"
     )]
     Ratio {
         /// The scene.
@@ -104,11 +104,13 @@ fn compare_groups(group: &Group, like: &Group, found: &mut Vec<Disagreement>) {
     }
 }
 
+/// One of a contestant's time ratios.
+type Clock = fn(&CostRatio) -> Option<Ratio>;
+
 /// A contestant's time ratios that are outside the spreads of its like.
 fn ratios_outside(contestant: &Contestant, like: &Contestant) -> impl Iterator<Item = (&'static str, f64, Ratio)> {
-    let ratio =
-        |contestant: &Contestant, clock: fn(&CostRatio) -> Option<Ratio>| contestant.ratio.as_ref().and_then(clock);
-    let clocks: [(&str, fn(&CostRatio) -> Option<Ratio>); 3] =
+    let ratio = |contestant: &Contestant, clock: Clock| contestant.ratio.as_ref().and_then(clock);
+    let clocks: [(&str, Clock); 3] =
         [("device", |ratio| ratio.device), ("wall-clock", |ratio| ratio.wall), ("CPU record", |ratio| ratio.record)];
     let pairs = clocks.map(|(name, clock)| Some((name, ratio(contestant, clock)?.median, ratio(like, clock)?)));
     let is_outside = |(_, found, spread): &(&str, f64, Ratio)| !(spread.low..=spread.high).contains(found);

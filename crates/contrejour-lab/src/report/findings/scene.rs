@@ -145,7 +145,8 @@ fn motion(group: &Group) -> Option<String> {
         .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "While the light moves, visibility jumps beyond what the truth does: {} times as much as with the plain shadow map.",
+            "While the light moves, visibility jumps beyond what the truth does: {} times as much as with the plain \
+             shadow map.",
             listed(told)
         )
     })

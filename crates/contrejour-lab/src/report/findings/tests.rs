@@ -136,8 +136,8 @@ fn the_summary_counts_scenes() {
     let mixed = summary_text(&report(vec![lost(), won()]));
     assert_says(
         &mixed,
-        "The most exact smoothies are more exact than the plain hard shadow on 1 of 2 scenes (fence), and less exact than \
-         the plain hard shadow on 1 of 2 scenes (square).",
+        "The most exact smoothies are more exact than the plain hard shadow on 1 of 2 scenes (fence), and less exact \
+         than the plain hard shadow on 1 of 2 scenes (square).",
     );
     assert_says(&mixed, "less exact than the most exact of the other soft shadows on 1 of 2 scenes (square).");
     assert_says(

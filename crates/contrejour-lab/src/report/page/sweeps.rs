@@ -14,7 +14,8 @@ pub(super) fn tables(report: &Report) -> Markup {
         @if !report.groups.is_empty() {
             p.lead {
                 "All that were measured, with their parameters. " span.mark { "●" } " stands for its family, "
-                span.mark { "◯" } " is on the Pareto front of its scene and size. Spreads are the 10th and the 90th percentile."
+                span.mark { "◯" } " is on the Pareto front of its scene and size. "
+                "Spreads are the 10th and the 90th percentile."
             }
         }
         @for scene in report.scenes() {
@@ -48,7 +49,8 @@ fn head() -> Markup {
         tr {
             @for _ in 0..2 { @for name in ["RMSE", "mean", "99 %"] { th scope="col" { (name) } } }
             @for name in [
-                "too large", "too small", "mean", "99 %", "device", "×", "wall-clock", "×", "median", "×", "maps", "buffers",
+                "too large", "too small", "mean", "99 %", "device", "×", "wall-clock", "×", "median", "×", "maps",
+                "buffers",
             ] {
                 th scope="col" { (name) }
             }

@@ -158,15 +158,16 @@ fn finish(drawing: &str, title: &str, height: i32, plot_use: PlotUse) -> String 
     let (size, style) = match plot_use {
         PlotUse::Inline => (String::new(), ""),
         PlotUse::File => (
-            format!(r#" width="{WIDTH}" height="{height}""#),
+            format!(r#"width="{WIDTH}" height="{height}" "#),
             "<style>svg { color: #1b1d21 } @media (prefers-color-scheme: dark) { svg { color: #e6e4df } }</style>\n",
         ),
     };
+    let inner = inner.trim_start();
     format!(
-        r#"<svg class="plot" role="img" viewBox="0 0 {units_across} {units_down}"{size} xmlns="http://www.w3.org/2000/svg">
+        r#"<svg xmlns="http://www.w3.org/2000/svg" class="plot" role="img"
+{size}viewBox="0 0 {units_across} {units_down}">
 <title>{title}</title>
-{style}{inner}"#,
-        inner = inner.trim_start(),
+{style}{inner}"#
     )
 }
 
