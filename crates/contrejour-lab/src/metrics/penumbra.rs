@@ -3,8 +3,8 @@
 use super::MetricError;
 use super::input::{check_length, check_visibility};
 
-/// The receivers in the penumbra, by the truth alone: its visibility is more than 0 and less than 1 by more than its own
-/// standard error. No technique has a say, so the mask is the same for all of them.
+/// The receivers in the penumbra, by the truth alone: its visibility is more than 0 and less than 1 by more than its
+/// own standard error. No technique has a say, so the mask is the same for all of them.
 ///
 /// # Errors
 ///

@@ -22,8 +22,8 @@ pub fn difference_colour(difference: f32) -> [u8; 3] {
     [0, 1, 2].map(|i| (f32::from(from[i]) + share * (f32::from(to[i]) - f32::from(from[i]))).round() as u8)
 }
 
-/// Where a technique is too dark (blue), too light (orange) or right (light grey), by [`difference_colour`]. Pixels that
-/// are no receivers are transparent.
+/// Where a technique is too dark (blue), too light (orange) or right (light grey), by [`difference_colour`]. Pixels
+/// that are no receivers are transparent.
 ///
 /// # Errors
 ///

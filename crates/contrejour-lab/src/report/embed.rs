@@ -14,7 +14,10 @@ const WIDTH_MAX: u32 = 320;
 #[derive(Debug, thiserror::Error)]
 pub enum EmbedError {
     /// The file can't be read as a picture.
-    #[error("the picture {path} can't be read: {error}; make the report again, or take the picture out of its JSON", path = path.display())]
+    #[error(
+        "the picture {path} can't be read: {error}; make the report again, or take the picture out of its JSON",
+        path = path.display()
+    )]
     Read {
         /// The file.
         path: PathBuf,

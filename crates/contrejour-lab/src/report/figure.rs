@@ -83,7 +83,7 @@ pub enum Stroke {
     Line,
     /// Marks alone: what was measured, in no order.
     Marks,
-    /// A dashed line without marks: a model or a fit.
+    /// A dashed line without marks in the colour of the series before it: its model or fit.
     Dashed,
     /// Large rings joined by a dashed line: points of other series that stand out, as a Pareto front.
     Ringed,

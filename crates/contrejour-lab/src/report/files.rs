@@ -20,7 +20,10 @@ pub const PLOTS_FOLDER: &str = "plots";
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// A file or folder can't be written.
-    #[error("cannot write {path}: {error}; check that the folder can be written to and has room", path = path.display())]
+    #[error(
+        "cannot write {path}: {error}; check that the folder can be written to and has room",
+        path = path.display()
+    )]
     File {
         /// The file or folder.
         path: PathBuf,
@@ -68,8 +71,9 @@ pub enum ReadError {
 }
 
 impl Report {
-    /// Writes JSON, CSV, plots and page into a folder, which is made where it is missing and holds the pictures that the
-    /// report names. Each file is written beside its place and then put there, so that readers never see half a file.
+    /// Writes JSON, CSV, plots and page into a folder, which is made where it is missing and holds the pictures that
+    /// the report names. Each file is written beside its place and then put there, so that readers never see half a
+    /// file.
     ///
     /// # Errors
     ///

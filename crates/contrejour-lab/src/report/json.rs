@@ -15,7 +15,10 @@ pub enum ToJsonError {
 
 /// Why JSON is no report.
 #[derive(Debug, thiserror::Error)]
-#[error("this is not a report of contrejour {version}: {error}; make it again with this version", version = env!("CARGO_PKG_VERSION"))]
+#[error(
+    "this is not a report of contrejour {version}: {error}; make it again with this version",
+    version = env!("CARGO_PKG_VERSION")
+)]
 pub struct FromJsonError {
     /// What is wrong, with line and column.
     #[from]

@@ -1,5 +1,6 @@
 //! The report: what was measured, as data, files and a page.
 
+mod agree;
 mod colours;
 mod cost;
 mod csv;
@@ -18,6 +19,7 @@ mod plot;
 mod sample;
 mod settle;
 
+pub use agree::Disagreement;
 pub use colours::{difference_colour, difference_picture, visibility_picture};
 pub use cost::{Cost, CostRatio, StageCost, StageRatio};
 pub use embed::EmbedError;

@@ -17,7 +17,7 @@ pub struct Report {
     pub figures: Vec<Figure>,
 }
 
-/// How a report was made. Reports whose headers differ in more than the command can't be merged.
+/// How a report was made. Groups of shards belong together where all of this but the command is equal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// The command that makes it again.

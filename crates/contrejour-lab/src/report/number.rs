@@ -34,9 +34,9 @@ pub(super) fn bytes(bytes: u64) -> String {
     }
 }
 
-/// A share as per cent.
+/// A share as per cent, which no line break parts.
 pub(super) fn percent(share: f64) -> String {
-    format!("{} %", significant(100.0 * share, 2))
+    format!("{}\u{a0}%", significant(100.0 * share, 2))
 }
 
 /// A whole number with thin spaces between thousands.
@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn units() {
         assert_eq!([0, 1023, 1024, 5 << 20].map(bytes), ["0 B", "1023 B", "1.00 KiB", "5.00 MiB"]);
-        assert_eq!(percent(0.031_4), "3.1 %");
+        assert_eq!(percent(0.031_4), "3.1\u{a0}%");
         assert_eq!([7, 1000, 1_234_567].map(grouped), ["7", "1\u{202f}000", "1\u{202f}234\u{202f}567"]);
     }
 }

@@ -83,9 +83,20 @@ impl CostRatio {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sample::contestant;
-    use super::super::sample::group;
+    use contrejour_plan::Technique;
+
+    use super::super::findings::OURS;
+    use super::super::sample::{contestant, group};
+    use super::BASELINE_TECHNIQUE;
     use crate::metrics::Ratio;
+
+    #[test]
+    fn the_techniques_that_are_singled_out_exist() {
+        for name in [BASELINE_TECHNIQUE, OURS] {
+            assert!(Technique::NAMES.contains(&name), "{name}");
+        }
+        assert!(!Technique::NAMES.contains(&"smoothie"));
+    }
 
     #[test]
     fn the_most_exact_variant_stands_for_its_family() {

@@ -8,7 +8,7 @@ use contrejour_lab::report::{
     PictureGrid, Plot, Report, Scale, Series, StageCost, Stroke, Table, Truth, difference_picture, visibility_picture,
 };
 
-const SIZE: [u32; 2] = [320, 240];
+const SIZE: [u32; 2] = [200, 150];
 
 /// Scene, radius of its shadow and of its penumbra.
 const SCENES: [(&str, f32, f32); 4] =

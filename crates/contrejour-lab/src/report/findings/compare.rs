@@ -43,10 +43,10 @@ impl Group {
 
 /// An error as the text gives it.
 pub(super) fn error(value: f64) -> String {
-    significant(value, 2)
+    significant(value, 3)
 }
 
-/// Families with their RMSE: `a (0.14), b (0.016) and c (0.11)`.
+/// Families with their RMSE: `a (0.140), b (0.0160) and c (0.110)`.
 pub(super) fn with_errors(contestants: &[&Contestant]) -> String {
     listed(contestants.iter().map(|contestant| format!("{} ({})", contestant.family, error(contestant.rmse()))))
 }

@@ -7,7 +7,7 @@ use super::compare::{error, listed, with_errors};
 /// An umbra that is wrong on less than this share of the receivers is not worth a sentence.
 const UMBRA_WORTH_TELLING: f64 = 0.001;
 
-/// A motion figure has to be this many times another to be called more.
+/// A motion figure has to be this many times the plain shadow map's, or this part of it, to be worth a sentence.
 const MOTION_WORTH_TELLING: f64 = 1.25;
 
 pub(super) fn sentences(group: &Group) -> Vec<String> {
@@ -40,7 +40,7 @@ fn most_exact(group: &Group) -> Option<String> {
     } else {
         format!(
             "; {like} can't be told from it, since the truth itself is exact to {}",
-            error(group.truth.standard_error_rms)
+            significant(group.truth.standard_error_rms, 2)
         )
     };
     Some(format!("Most exact: {}, with an RMSE of {}{at}{alike}.", best.family, error(best.rmse())))
@@ -101,9 +101,11 @@ fn umbra_too_large(group: &Group) -> Option<String> {
     };
     let shares: Vec<String> = ours(group)
         .filter(is_too_large)
-        .map(|ours| format!("{} of the receivers with {}", percent(ours.errors.umbra.too_large()), ours.family))
+        .map(|ours| format!("{} ({})", percent(ours.errors.umbra.too_large()), ours.family))
         .collect();
-    (!shares.is_empty()).then(|| format!("The umbra that smoothies never shrink is too large: on {}.", listed(shares)))
+    (!shares.is_empty()).then(|| {
+        format!("The umbra, which smoothies never shrink, is too large on {} of the receivers.", listed(shares))
+    })
 }
 
 fn more_exact_than_hard(group: &Group) -> Option<String> {
@@ -135,15 +137,17 @@ fn beats_peers(group: &Group) -> Option<String> {
 fn motion(group: &Group) -> Option<String> {
     let mean = |contestant: &Contestant| contestant.errors.motion.as_ref().map(|motion| motion.mean);
     let hard = group.baseline().and_then(mean).filter(|&mean| mean > 0.0)?;
-    let times: Vec<_> = ours(group).filter_map(|ours| Some((ours.family.as_str(), mean(ours)? / hard))).collect();
-    let named = |is_told: &dyn Fn(f64) -> bool| {
-        let told = times.iter().filter(|(_, times)| is_told(*times));
-        listed(told.map(|(family, times)| format!("{family} {} times as much", significant(*times, 2))))
-    };
-    let more = named(&|times| times >= MOTION_WORTH_TELLING);
-    let less = named(&|times| times <= 1.0 / MOTION_WORTH_TELLING);
-    let parts = [("more", more), ("less", less)].into_iter().filter(|(_, named)| !named.is_empty());
-    let parts: Vec<_> = parts.map(|(how, named)| format!("{how} than the plain shadow map: {named}")).collect();
-    (!parts.is_empty())
-        .then(|| format!("While the light moves, visibility jumps beyond what the truth does {}.", parts.join("; ")))
+    let is_told = |times: f64| times >= MOTION_WORTH_TELLING || times <= 1.0 / MOTION_WORTH_TELLING;
+    let told: Vec<String> = ours(group)
+        .filter_map(|ours| Some((ours, mean(ours)? / hard)))
+        .filter(|&(_, times)| is_told(times))
+        .map(|(ours, times)| format!("{} {}", ours.family, significant(times, 2)))
+        .collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "While the light moves, visibility jumps beyond what the truth does: {} times as much as with the plain \
+             shadow map.",
+            listed(told)
+        )
+    })
 }

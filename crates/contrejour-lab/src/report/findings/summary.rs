@@ -89,7 +89,10 @@ fn software(groups: &[&Group]) -> Option<String> {
         groups.iter().filter(|group| group.machine.is_software).map(|group| group.scene.as_str()).collect();
     let place = if software.len() == groups.len() { "All" } else { "Some" };
     (!software.is_empty()).then(|| {
-        format!("{place} of these times come from a device in software: they rank the work, and do not say what a GPU takes.")
+        format!(
+            "{place} of these times come from a device in software: they rank the work, and do not say what a GPU \
+             takes."
+        )
     })
 }
 

@@ -39,14 +39,20 @@ fn smoothies_that_lose_to_the_hard_shadow_are_named() {
     let mut losing = smoothies(0.14, 1.3);
     losing.errors.umbra.too_large_pixels = 1800;
     let text = scene_text(vec![plain(0.11, 1.0), losing, pcss(0.016, 2.0)]);
-    assert_says(&text, "By RMSE less exact than the plain hard shadow (0.11): smoothies (0.14); PCSS 16+32 has 0.016.");
-    assert_says(&text, "The umbra that smoothies never shrink is too large: on 3.0 % of the receivers with smoothies.");
+    assert_says(
+        &text,
+        "By RMSE less exact than the plain hard shadow (0.110): smoothies (0.140); PCSS 16+32 has 0.0160.",
+    );
+    assert_says(
+        &text,
+        "The umbra, which smoothies never shrink, is too large on 3.0\u{a0}% (smoothies) of the receivers.",
+    );
     assert_silent(&text, "More exact than the plain");
     assert_says(
         &text,
-        "Most exact: PCSS 16+32, with an RMSE of 0.016, in 2.00 times the time of the plain shadow map.",
+        "Most exact: PCSS 16+32, with an RMSE of 0.0160, in 2.00 times the time of the plain shadow map.",
     );
-    assert_says(&text, "Fastest: shadow map, at 1.00 ms and an RMSE of 0.11.");
+    assert_says(&text, "Fastest: shadow map, at 1.00 ms and an RMSE of 0.110.");
     assert_says(&text, "Nothing measured is both faster and more exact than shadow map and PCSS 16+32.");
 }
 
@@ -55,7 +61,7 @@ fn smoothies_that_win_against_the_hard_shadow_are_named() {
     let mut winning = smoothies(0.05, 1.3);
     winning.errors.umbra.too_large_pixels = 10;
     let text = scene_text(vec![plain(0.11, 1.0), winning, pcss(0.016, 2.0)]);
-    assert_says(&text, "More exact than the plain hard shadow (0.11): smoothies (0.050).");
+    assert_says(&text, "More exact than the plain hard shadow (0.110): smoothies (0.0500).");
     assert_silent(&text, "less exact");
     assert_silent(&text, "umbra");
     assert_says(&text, "than shadow map, smoothies and PCSS 16+32.");
@@ -82,9 +88,9 @@ fn differences_below_the_truths_own_error_are_no_differences() {
 #[test]
 fn who_beats_whom_needs_both_error_and_time() {
     let ours_win = scene_text(vec![plain(0.11, 1.0), smoothies(0.05, 1.3), pcss(0.06, 2.0)]);
-    assert_says(&ours_win, "Both more exact and faster: smoothies (0.050) than PCSS 16+32 (0.060).");
+    assert_says(&ours_win, "Both more exact and faster: smoothies (0.0500) than PCSS 16+32 (0.0600).");
     let peer_wins = scene_text(vec![plain(0.11, 1.0), smoothies(0.06, 2.0), pcss(0.05, 1.3)]);
-    assert_says(&peer_wins, "Both more exact and faster than smoothies (0.060): PCSS 16+32 (0.050).");
+    assert_says(&peer_wins, "Both more exact and faster than smoothies (0.0600): PCSS 16+32 (0.0500).");
     // Each better in one, or faster only within the spread of 10 % each way.
     for (ours, peer) in [(smoothies(0.06, 1.3), pcss(0.05, 2.0)), (smoothies(0.05, 1.9), pcss(0.06, 2.0))] {
         assert_silent(&scene_text(vec![plain(0.11, 1.0), ours, peer]), "Both more exact");
@@ -96,7 +102,7 @@ fn times_within_the_spread_share_the_first_place() {
     let text = scene_text(vec![plain(0.11, 1.0), smoothies(0.05, 1.1)]);
     assert_says(
         &text,
-        "Fastest: shadow map, at 1.00 ms and an RMSE of 0.11; within the spread of its frames: smoothies.",
+        "Fastest: shadow map, at 1.00 ms and an RMSE of 0.110; within the spread of its frames: smoothies.",
     );
     assert_silent(&scene_text(vec![plain(0.11, 1.0), smoothies(0.05, 1.3)]), "within the spread");
 }
@@ -115,8 +121,8 @@ fn jumps_are_told_both_ways() {
         contestant
     };
     let text = |ours: f64| scene_text(vec![moving(plain(0.11, 1.0), 0.01), moving(smoothies(0.05, 1.3), ours)]);
-    assert_says(&text(0.032), "more than the plain shadow map: smoothies 3.2 times as much.");
-    assert_says(&text(0.005), "less than the plain shadow map: smoothies 0.50 times as much.");
+    assert_says(&text(0.032), "smoothies 3.2 times as much as with the plain shadow map.");
+    assert_says(&text(0.005), "smoothies 0.50 times as much as with the plain shadow map.");
     assert_silent(&text(0.011), "jumps");
     let mut unmeasured = smoothies(0.05, 1.3);
     unmeasured.errors.motion = None;
@@ -130,8 +136,8 @@ fn the_summary_counts_scenes() {
     let mixed = summary_text(&report(vec![lost(), won()]));
     assert_says(
         &mixed,
-        "The most exact smoothies are more exact than the plain hard shadow on 1 of 2 scenes (fence), and less exact than \
-         the plain hard shadow on 1 of 2 scenes (square).",
+        "The most exact smoothies are more exact than the plain hard shadow on 1 of 2 scenes (fence), and less exact \
+         than the plain hard shadow on 1 of 2 scenes (square).",
     );
     assert_says(&mixed, "less exact than the most exact of the other soft shadows on 1 of 2 scenes (square).");
     assert_says(

@@ -39,7 +39,7 @@ fn table(table: &Table, title: &str) -> Markup {
             }
         }
     };
-    boxed(title, head, body)
+    boxed(title, &[], head, body)
 }
 
 fn picture_grid(grid: &PictureGrid, title: &str, folder: &Path) -> Result<Markup, PageError> {
@@ -53,7 +53,12 @@ fn picture_grid(grid: &PictureGrid, title: &str, folder: &Path) -> Result<Markup
                 None => None,
             });
         }
-        rows.push(html! { tr { th scope="row" { (row.label) } @for cell in cells { td { @if let Some(cell) = cell { (cell) } } } } });
+        rows.push(html! {
+            tr {
+                th scope="row" { (row.label) }
+                @for cell in cells { td { @if let Some(cell) = cell { (cell) } } }
+            }
+        });
     }
-    Ok(html! { div.grid { (boxed(title, head, html! { @for row in &rows { (row) } })) } })
+    Ok(html! { div.grid { (boxed(title, &[], head, html! { @for row in &rows { (row) } })) } })
 }

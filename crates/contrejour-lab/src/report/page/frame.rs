@@ -18,9 +18,9 @@ pub(super) fn head(report: &Report) -> Markup {
             p.kicker { "contrejour " (header.version) }
             h1 { (TITLE) }
             p.lead {
-                "Shadow techniques on the same scenes, maps, lights and final pass: how far each one's visibility is from "
-                "a ray-traced area light at the very same surface points, and what it costs. All times of a table were "
-                "taken by turns, frame by frame, in one run."
+                "Shadow techniques on the same scenes, maps, lights and final pass: how far each one's visibility is "
+                "from a ray-traced area light at the very same surface points, and what it costs. All times of a "
+                "table were taken by turns, frame by frame, in one run."
             }
             dl.facts {
                 div { dt { "Command" } dd { code { (header.command) } } }
@@ -29,7 +29,9 @@ pub(super) fn head(report: &Report) -> Markup {
                         dt { "Device" }
                         dd {
                             (machine.device) ", " (machine.cores) " CPU threads"
-                            @if machine.is_software { " " strong.warning { "software device: its times are not a GPU's" } }
+                            @if machine.is_software {
+                                " " strong.warning { "software device: its times are not a GPU's" }
+                            }
                         }
                     }
                 }

@@ -44,11 +44,12 @@ pub(super) fn tables(report: &Report) -> Markup {
     html! {
         @if !families.is_empty() {
             p.lead {
-                "RMSE of visibility over all receivers and inside the true penumbra (0 is the truth, 1 is all wrong), and "
-                "time of the whole shadow work as a multiple of the plain shadow map's. The most exact variant stands for "
-                "each family; the best of each column is " span.best { "marked" } "."
+                "RMSE of visibility over all receivers and inside the true penumbra (0 is the truth, 1 is all wrong), "
+                "and time of the whole shadow work as a multiple of the plain shadow map's. The most exact variant "
+                "stands for each family; the best of each column is " span.best { "marked" } "."
             }
-            (boxed("Error and time by family and scene", head(&groups), body(&groups, &families)))
+            @let spans = vec![COLUMNS.len(); groups.len()];
+            (boxed("Error and time by family and scene", &spans, head(&groups), body(&groups, &families)))
         }
     }
 }
@@ -79,5 +80,37 @@ fn body(groups: &[&Group], families: &[&str]) -> Markup {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::sample::{contestant, group, report};
+    use super::*;
+
+    /// Texts of the cells that are marked.
+    fn marked(report: &Report) -> Vec<String> {
+        let table = tables(report).into_string();
+        let cells = table.split("<td class=\"best\">").skip(1);
+        cells.filter_map(|cell| cell.split_once('<')).map(|(text, _)| text.to_owned()).collect()
+    }
+
+    #[test]
+    fn the_best_of_each_column_is_marked() {
+        let report = |smoothies_rmse| {
+            report(vec![group(
+                "square",
+                1024,
+                vec![
+                    contestant("plain", "plain", "shadow-map", 0.11, 1.0),
+                    contestant("smoothies", "smoothies", "smoothies", smoothies_rmse, 1.3),
+                ],
+            )])
+        };
+        // RMSE, that in the penumbra (the sample has twice as much) and time, by row.
+        assert_eq!(marked(&report(0.14)), ["0.110", "0.220", "1.00×"]);
+        assert_eq!(marked(&report(0.05)), ["1.00×", "0.0500", "0.100"]);
+        // What is printed alike is marked alike.
+        assert_eq!(marked(&report(0.110_01)), ["0.110", "0.220", "1.00×", "0.110", "0.220"]);
     }
 }

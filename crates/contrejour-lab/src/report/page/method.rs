@@ -2,19 +2,25 @@
 
 use maud::{Markup, html};
 
-use super::super::Report;
-use super::super::number::{grouped, percent, significant};
+use super::super::number::{grouped, significant};
+use super::super::{Errors, Report};
 use crate::metrics::{FLIP_PIXELS_PER_DEGREE, NOT_UMBRA_FROM, UMBRA_UP_TO};
 
 pub(super) fn text(report: &Report) -> Markup {
     let header = &report.header;
+    let measured = |has: fn(&Errors) -> bool| {
+        report.groups.iter().flat_map(|group| &group.contestants).any(|contestant| has(&contestant.errors))
+    };
     html! {
         dl.method {
             dt { "Truth" }
             dd {
-                "The share of the area light that a receiver point sees, ray-traced from the points that the rasteriser "
-                "shades, with at most " (grouped(header.truth_samples_max)) " light samples a pixel, fewer where the standard "
-                "error has fallen to " (significant(header.truth_target_error, 2)) "."
+                "The share of the area light that a receiver point sees, ray-traced from the points that the "
+                "rasteriser shades, with at most " (grouped(header.truth_samples_max)) " light samples a pixel"
+                @if header.truth_target_error > 0.0 {
+                    ", fewer where the standard error has fallen to " (significant(header.truth_target_error, 2))
+                }
+                "."
             }
             dt { "RMSE, mean, 99 %" }
             dd {
@@ -25,30 +31,34 @@ pub(super) fn text(report: &Report) -> Markup {
             dt { "Umbra" }
             dd {
                 "Too large: visibility is at most " (UMBRA_UP_TO) " in the technique and at least " (NOT_UMBRA_FROM)
-                " in truth; too small: the reverse. As a share of the receiver pixels; " (percent(0.01)) " is a "
-                "hundredth of the picture's surfaces."
+                " in truth; too small: the reverse. As a share of the receiver pixels."
             }
-            dt { "FLIP" }
-            dd {
-                "Mean FLIP (Andersson et al. 2020) of the shaded picture against the one shaded with the true visibility, at "
-                (significant(FLIP_PIXELS_PER_DEGREE.into(), 2)) " pixels a degree."
+            @if measured(|errors| errors.flip.is_some()) {
+                dt { "FLIP" }
+                dd {
+                    "Mean FLIP (Andersson et al. 2020) of the shaded picture against the one shaded with the true "
+                    "visibility, at " (significant(FLIP_PIXELS_PER_DEGREE.into(), 2)) " pixels a degree."
+                }
             }
-            dt { "Motion" }
-            dd {
-                "While the light moves slowly: how much a pixel's visibility changes from frame to frame beyond what the truth "
-                "does, max(0, |ΔV| − |ΔT|); mean and 99th percentile over pixels and steps."
+            @if measured(|errors| errors.motion.is_some()) {
+                dt { "Motion" }
+                dd {
+                    "While the light moves slowly: how much a pixel's visibility changes from frame to frame beyond "
+                    "what the truth does, " code { "max(0, |ΔV| − |ΔT|)" } "; mean and 99th percentile over pixels and "
+                    "steps."
+                }
             }
             dt { "Time" }
             dd {
                 "Median over frames after warm-up with 10th and 90th percentile. Contestants of one scene and map size "
-                "take turns frame by frame, so that drift hits all alike. Device: timestamps around the whole shadow work. "
-                "Wall-clock: from submission to completion. Record: CPU time to prepare and record. Where a device has no "
-                "timestamps, wall-clock stands in."
+                "take turns frame by frame, so that drift hits all alike. Device: timestamps around the whole shadow "
+                "work. Wall-clock: from submission to completion. Record: CPU time to prepare and record. Where a "
+                "device has no timestamps, wall-clock stands in."
             }
             dt { "×" }
             dd {
-                "Multiple of the plain shadow map in the same table. Its spread divides low by high and high by low, so "
-                "two runs agree within it."
+                "Multiple of the plain shadow map in the same table. Its spread divides low by high and high by low, "
+                "so two runs agree within it."
             }
         }
     }

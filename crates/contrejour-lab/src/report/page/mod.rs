@@ -105,12 +105,48 @@ fn error_plots(report: &Report) -> Result<Markup, PageError> {
     Ok(html! {
         @if !plots.is_empty() {
             p.lead {
-                "Down and left is better. Each line is a family's most exact variant over the map sizes; rings mark the "
-                "Pareto front: no other point of the plot is both faster and more exact."
+                "Down and left is better. Each line is a family's most exact variant over the map sizes; rings mark "
+                "the Pareto front: no other point of the plot is both faster and more exact."
             }
             div.plots {
                 @for (scene, svg) in &plots { figure { figcaption { strong { (scene) } } (PreEscaped(svg)) } }
             }
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::{contestant, group, report};
+    use super::*;
+
+    #[test]
+    fn what_was_not_measured_has_no_section() {
+        let mut plain = contestant("plain", "plain", "shadow-map", 0.11, 1.0);
+        plain.errors.flip = None;
+        let sections = |report: &Report| -> (Vec<&str>, bool) {
+            let page = report.to_page(Path::new("nowhere")).expect("no picture is needed");
+            let ids = ["findings", "glance", "time", "pictures", "stages", "sweeps", "papers", "method"];
+            let here =
+                |id: &&str| page.contains(&format!("href=\"#{id}\"")) && page.contains(&format!("section id=\"{id}\""));
+            (ids.into_iter().filter(here).collect(), page.contains("<dt>FLIP"))
+        };
+        let without_pictures = report(vec![group("square", 1024, vec![plain.clone()])]);
+        assert_eq!(
+            sections(&without_pictures),
+            (vec!["findings", "glance", "time", "stages", "sweeps", "method"], false)
+        );
+        plain.cost.stages.clear();
+        plain.errors.flip = Some(0.1);
+        let without_stages = report(vec![group("square", 1024, vec![plain])]);
+        assert_eq!(sections(&without_stages), (vec!["findings", "glance", "time", "sweeps", "method"], true));
+        assert_eq!(sections(&report(Vec::new())), (vec!["method"], false));
+    }
+
+    #[test]
+    fn a_missing_picture_is_an_error() {
+        let mut report = report(vec![group("square", 1024, Vec::new())]);
+        report.groups[0].truth_picture = Some("none.png".into());
+        assert!(matches!(report.to_page(Path::new("nowhere")), Err(PageError::Picture(_))));
+    }
 }

@@ -19,8 +19,9 @@ pub(super) fn strips(report: &Report, folder: &Path) -> Result<Markup, EmbedErro
     Ok(html! {
         @if !strips.is_empty() {
             p.lead {
-                "Visibility alone, black to white, and below it the difference from the truth: blue is too dark, orange is "
-                "too light, light grey is right. Small differences are strengthened (the colour follows the root)."
+                "Visibility alone, black to white, and below it the difference from the truth: blue is too dark, "
+                "orange is too light, light grey is right. Small differences are strengthened (the colour follows the "
+                "root)."
             }
             (key())
             @for strip in &strips { (strip) }
@@ -81,7 +82,7 @@ fn key() -> Markup {
         format!("background:rgb({r} {g} {b})")
     });
     html! {
-        div.key role="img" aria-label="Colours from blue, too dark by 1, by light grey, equal, to orange, too light by 1" {
+        div.key role="img" aria-label="From blue (too dark by 1) by light grey (equal) to orange (too light by 1)" {
             span { "too dark by 1" }
             span.colours { @for colour in colours { i style=(colour) {} } }
             span { "too light by 1" }

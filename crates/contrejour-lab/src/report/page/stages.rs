@@ -19,7 +19,8 @@ pub(super) fn tables(report: &Report) -> Markup {
                 // One is open, so that readers see what is in the others.
                 details open[number == 0] {
                     summary { strong { (group.scene) } " at " (group.map_size) " texels" }
-                    (boxed(&format!("Stages and passes: {}, {} texels", group.scene, group.map_size), head(group), body(group)))
+                    @let caption = format!("Stages and passes: {}, {} texels", group.scene, group.map_size);
+                    (boxed(&caption, &[], head(group), body(group)))
                 }
             }
         }

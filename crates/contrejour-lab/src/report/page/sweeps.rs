@@ -6,12 +6,16 @@ use super::super::number::{bytes, grouped, percent, significant};
 use super::super::{Contestant, Group, Report};
 use super::table::{boxed, number, ratio, timing};
 
+/// How many columns belong together, after that of the names.
+const GROUPS: [usize; 8] = [3, 3, 2, 1, 2, 4, 2, 2];
+
 pub(super) fn tables(report: &Report) -> Markup {
     html! {
         @if !report.groups.is_empty() {
             p.lead {
                 "All that were measured, with their parameters. " span.mark { "●" } " stands for its family, "
-                span.mark { "◯" } " is on the Pareto front of its scene and size. Spreads are the 10th and the 90th percentile."
+                span.mark { "◯" } " is on the Pareto front of its scene and size. "
+                "Spreads are the 10th and the 90th percentile."
             }
         }
         @for scene in report.scenes() {
@@ -21,7 +25,7 @@ pub(super) fn tables(report: &Report) -> Markup {
                         strong { (scene) } " at " (group.map_size) " texels "
                         small { (group.contestants.len()) " variants, " (grouped(group.faces)) " faces" }
                     }
-                    (boxed(&format!("Every variant: {scene}, {} texels", group.map_size), head(), body(group)))
+                    (boxed(&format!("Every variant: {scene}, {} texels", group.map_size), &GROUPS, head(), body(group)))
                     (truth(group))
                 }
             }
@@ -45,7 +49,8 @@ fn head() -> Markup {
         tr {
             @for _ in 0..2 { @for name in ["RMSE", "mean", "99 %"] { th scope="col" { (name) } } }
             @for name in [
-                "too large", "too small", "mean", "99 %", "device", "×", "wall-clock", "×", "median", "×", "maps", "buffers",
+                "too large", "too small", "mean", "99 %", "device", "×", "wall-clock", "×", "median", "×", "maps",
+                "buffers",
             ] {
                 th scope="col" { (name) }
             }

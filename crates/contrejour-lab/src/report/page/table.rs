@@ -5,13 +5,16 @@ use maud::{Markup, html};
 use super::super::number::significant;
 use crate::metrics::{Ratio, Timing};
 
-/// A table in a box of its own, in which it scrolls where it is wider than the window.
-pub(super) fn boxed(caption: &str, head: Markup, body: Markup) -> Markup {
+/// A table in a box of its own, in which it scrolls where it is wider than the window. `groups` are the numbers of
+/// columns that lines part from those before; columns beyond them are one more group.
+pub(super) fn boxed(caption: &str, groups: &[usize], head: Markup, body: Markup) -> Markup {
     html! {
         // Focusable, so that the box scrolls by keyboard too.
         div.scroll tabindex="0" role="region" aria-label=(caption) {
             table {
                 caption { (caption) }
+                @if !groups.is_empty() { col; }
+                @for span in groups { colgroup span=(span) {} }
                 thead { (head) }
                 tbody { (body) }
             }

@@ -18,8 +18,8 @@ const WIDTH: i32 = 440;
 const CHART_HEIGHT: i32 = 300;
 /// Height of a line of the legend in pixels.
 const LEGEND_LINE: i32 = 19;
-/// Labels up to this many characters go in two columns.
-const LEGEND_SHORT: usize = 26;
+/// Room in the legend for a sample and the gap after a label in pixels.
+const LEGEND_SAMPLE: i32 = 46;
 /// Size of all text in pixels.
 const TEXT: i32 = 13;
 
@@ -30,7 +30,7 @@ type Root<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 pub(super) fn draw(plot: &Plot, x: Ticks, y: Ticks, title: &str, plot_use: PlotUse) -> Result<String, PlotError> {
     let legend = Legend::of(&plot.series);
-    let height = CHART_HEIGHT + legend.lines * LEGEND_LINE + LEGEND_LINE / 2;
+    let height = CHART_HEIGHT + (legend.lines + 1) * LEGEND_LINE;
     let mut svg = String::new();
     let root = SVGBackend::with_string(&mut svg, ((WIDTH * UNIT) as u32, (height * UNIT) as u32)).into_drawing_area();
     draw_all(&root, plot, x, y, &legend).map_err(|error| PlotError::Draw(error.to_string()))?;
@@ -61,29 +61,39 @@ fn draw_all(root: &Root, plot: &Plot, x: Ticks, y: Ticks, legend: &Legend) -> Re
     let named = text.clone().pos(Pos::new(HPos::Left, VPos::Center));
     chart_area.draw(&Text::new(plot.y.label.clone(), (4 * UNIT, 11 * UNIT), named.clone()))?;
 
-    for (number, series) in plot.series.iter().enumerate() {
+    let marks = marks(&plot.series);
+    for (series, mark) in plot.series.iter().zip(&marks) {
         let points: Vec<_> = series.points.iter().map(|&[x, y]| chart.backend_coord(&(x, y))).collect();
-        draw_series(&chart_area, &points, series.stroke, number)?;
+        draw_series(&chart_area, &points, series.stroke, mark)?;
     }
-    for (number, series) in plot.series.iter().enumerate() {
+    for (number, (series, mark)) in plot.series.iter().zip(&marks).enumerate() {
         let (x, y) = legend.place(number);
         let ends = [(x - 9 * UNIT, y), (x + 9 * UNIT, y)];
         let points: &[_] = if matches!(series.stroke, Stroke::Dashed | Stroke::Line) { &ends } else { &[(x, y)] };
         match series.stroke {
             // One mark in the middle of the sample's line.
             Stroke::Line => {
-                legend_area.draw(&PathElement::new(points, line(Mark::of(number).colour.into())))?;
-                legend_area.draw(&Mark::of(number).at((x, y), 4 * UNIT))?;
+                legend_area.draw(&PathElement::new(points, line(mark.colour.into())))?;
+                legend_area.draw(&mark.at((x, y), 4 * UNIT))?;
             }
-            stroke => draw_series(&legend_area, points, stroke, number)?,
+            stroke => draw_series(&legend_area, points, stroke, mark)?,
         }
         legend_area.draw(&Text::new(series.label.clone(), (x + 15 * UNIT, y), named.clone()))?;
     }
     root.present()
 }
 
-fn draw_series(area: &Root, points: &[(i32, i32)], stroke: Stroke, number: usize) -> Result<(), DrawingError> {
-    let mark = Mark::of(number);
+/// A mark for each series. A fit takes that of the series before it.
+fn marks(series: &[Series]) -> Vec<Mark> {
+    let mut own = 0;
+    let number = |series: &Series| {
+        own += usize::from(series.stroke != Stroke::Dashed);
+        usize::saturating_sub(own, 1)
+    };
+    series.iter().map(number).map(Mark::of).collect()
+}
+
+fn draw_series(area: &Root, points: &[(i32, i32)], stroke: Stroke, mark: &Mark) -> Result<(), DrawingError> {
     match stroke {
         Stroke::Line => {
             area.draw(&PathElement::new(points, line(mark.colour.into())))?;
@@ -109,24 +119,34 @@ fn line(colour: RGBAColor) -> ShapeStyle {
 
 type DrawingError = DrawingAreaErrorKind<<SVGBackend<'static> as DrawingBackend>::ErrorType>;
 
-/// Where the legend's entries stand: in one column or two, filled by line.
+/// Where the legend's entries stand: one after the other, in as many lines as that takes.
 struct Legend {
-    columns: usize,
+    /// Left end of each entry in pixels, and its line.
+    places: Vec<(i32, i32)>,
     lines: i32,
 }
 
 impl Legend {
     fn of(series: &[Series]) -> Self {
-        let is_short = |series: &Series| series.label.chars().count() <= LEGEND_SHORT;
-        let columns = if series.iter().all(is_short) { 2 } else { 1 };
-        Self { columns, lines: series.len().div_ceil(columns) as i32 }
+        let (mut x, mut line) = (0, 0);
+        let places = series.iter().map(|series| {
+            // Letters are about 0.58 times as wide as the text is high; SVG does not tell.
+            let width = LEGEND_SAMPLE + series.label.chars().count() as i32 * TEXT * 58 / 100;
+            if x > 0 && x + width > WIDTH {
+                (x, line) = (0, line + 1);
+            }
+            let place = (x, line);
+            x += width;
+            place
+        });
+        let places = places.collect();
+        Self { places, lines: line + 1 }
     }
 
-    /// Middle of an entry's mark.
+    /// Middle of an entry's sample.
     fn place(&self, number: usize) -> (i32, i32) {
-        let [column, line] = [number % self.columns, number / self.columns].map(|i| i as i32);
-        let x = 22 + column * WIDTH / self.columns as i32;
-        (x * UNIT, (line * LEGEND_LINE + LEGEND_LINE / 2) * UNIT)
+        let (x, line) = self.places[number];
+        ((x + 14) * UNIT, (line * LEGEND_LINE + LEGEND_LINE) * UNIT)
     }
 }
 
@@ -138,14 +158,32 @@ fn finish(drawing: &str, title: &str, height: i32, plot_use: PlotUse) -> String 
     let (size, style) = match plot_use {
         PlotUse::Inline => (String::new(), ""),
         PlotUse::File => (
-            format!(r#" width="{WIDTH}" height="{height}""#),
+            format!(r#"width="{WIDTH}" height="{height}" "#),
             "<style>svg { color: #1b1d21 } @media (prefers-color-scheme: dark) { svg { color: #e6e4df } }</style>\n",
         ),
     };
+    let inner = inner.trim_start();
     format!(
-        r#"<svg class="plot" role="img" viewBox="0 0 {units_across} {units_down}"{size} xmlns="http://www.w3.org/2000/svg">
+        r#"<svg xmlns="http://www.w3.org/2000/svg" class="plot" role="img"
+{size}viewBox="0 0 {units_across} {units_down}">
 <title>{title}</title>
-{style}{inner}"#,
-        inner = inner.trim_start(),
+{style}{inner}"#
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fit_has_the_colour_of_its_series() {
+        let series = [Stroke::Marks, Stroke::Dashed, Stroke::Line, Stroke::Dashed, Stroke::Line].map(|stroke| Series {
+            label: String::new(),
+            points: Vec::new(),
+            stroke,
+        });
+        assert_eq!(marks(&series), [0, 0, 1, 1, 2].map(Mark::of));
+        // A model without a series before it has the first.
+        assert_eq!(marks(&series[1..2]), [Mark::of(0)]);
+    }
 }
