@@ -17,23 +17,21 @@ pub struct Entrant {
     pub depth_precision: DepthPrecision,
 }
 
-/// No family or technique has a name that was asked for.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no technique or family {name:?} in the report; give one of {}", known.join(", "))]
-pub struct UnknownFamily {
-    /// The name that was given.
-    pub name: String,
-    /// All names.
-    pub known: Vec<String>,
-}
-
-/// A table of families holds what no technique takes.
+/// Why there are no entrants.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum EntrantError {
-    /// No technique has this name.
+pub enum EntrantsError {
+    /// No family or technique has a name that was asked for.
+    #[error("there is no technique or family {name:?} in the report; give one of {}", known.join(", "))]
+    Unknown {
+        /// The name that was given.
+        name: String,
+        /// All names.
+        known: Vec<String>,
+    },
+    /// The table of families names a technique that is not there.
     #[error(transparent)]
     Technique(#[from] UnknownTechnique),
-    /// A technique does not take a parameter.
+    /// The table of families tunes what a technique does not take.
     #[error(transparent)]
     Settings(#[from] SettingsError),
 }
@@ -133,13 +131,7 @@ const FAMILIES: &[Family] = &[
         swept: &[],
         depth_bits: BOTH_BITS,
     },
-    Family {
-        name: "smoothies by light size",
-        technique: "smoothies",
-        fixed: &[],
-        swept: &[],
-        depth_bits: BOTH_BITS,
-    },
+    Family { name: "smoothies by light size", technique: "smoothies", fixed: &[], swept: &[], depth_bits: BOTH_BITS },
 ];
 
 /// All entrants of an extent that were asked for, by the name of their technique or family; all where no name is given.
@@ -147,17 +139,17 @@ const FAMILIES: &[Family] = &[
 /// # Errors
 ///
 /// A name that nobody has, with those that there are.
-pub fn entrants(extent: Extent, names: &[String]) -> Result<Vec<Entrant>, UnknownFamily> {
+pub fn entrants(extent: Extent, names: &[String]) -> Result<Vec<Entrant>, EntrantsError> {
     for name in names {
         if !FAMILIES.iter().any(|family| family.is_called(name)) {
             let mut known: Vec<String> = Technique::NAMES.map(str::to_owned).to_vec();
             known.extend(FAMILIES.iter().map(Family::plain_name).filter(|name| !Technique::NAMES.contains(&&**name)));
-            return Err(UnknownFamily { name: name.clone(), known });
+            return Err(EntrantsError::Unknown { name: name.clone(), known });
         }
     }
-    let wanted =
-        FAMILIES.iter().filter(|family| names.is_empty() || names.iter().any(|name| family.is_called(name)));
-    Ok(wanted.flat_map(|family| family.entrants(extent)).collect())
+    let wanted = FAMILIES.iter().filter(|family| names.is_empty() || names.iter().any(|name| family.is_called(name)));
+    let entrants = wanted.map(|family| family.entrants(extent)).collect::<Result<Vec<_>, _>>()?;
+    Ok(entrants.into_iter().flatten().collect())
 }
 
 impl Family {
@@ -170,7 +162,7 @@ impl Family {
         self.name.to_ascii_lowercase().replace(' ', "-")
     }
 
-    fn entrants(&self, extent: Extent) -> Vec<Entrant> {
+    fn entrants(&self, extent: Extent) -> Result<Vec<Entrant>, EntrantsError> {
         let mut variants: Vec<Vec<(&str, f64)>> = vec![Vec::new()];
         for Sweep { parameter, values, quick } in self.swept {
             let values = if extent == Extent::Quick { &values[..*quick] } else { values };
@@ -182,11 +174,10 @@ impl Family {
         }
         let bits = if extent == Extent::Quick { &self.depth_bits[..1] } else { self.depth_bits };
         let all = bits.iter().flat_map(|&precision| variants.iter().map(move |variant| (variant, precision)));
-        // The tables are constants and a test builds all of them.
-        all.filter_map(|(variant, precision)| self.entrant(variant, precision).ok()).collect()
+        all.map(|(variant, precision)| self.entrant(variant, precision)).collect()
     }
 
-    fn entrant(&self, variant: &[(&str, f64)], depth_precision: DepthPrecision) -> Result<Entrant, EntrantError> {
+    fn entrant(&self, variant: &[(&str, f64)], depth_precision: DepthPrecision) -> Result<Entrant, EntrantsError> {
         let mut technique: Technique = self.technique.parse()?;
         let mut label = self.name.to_owned();
         for (name, value) in self.fixed.iter().chain(variant) {
@@ -252,10 +243,10 @@ mod tests {
     fn every_family_is_complete_and_every_label_unique() {
         for family in FAMILIES {
             let variants: usize = family.swept.iter().map(|sweep| sweep.values.len()).product();
-            let entrants = family.entrants(Extent::Full);
+            let entrants = family.entrants(Extent::Full).expect("the table is good");
             assert_eq!(entrants.len(), variants * family.depth_bits.len(), "{}", family.name);
             assert!(family.swept.iter().all(|sweep| (1..=sweep.values.len()).contains(&sweep.quick)));
-            assert!(!family.entrants(Extent::Quick).is_empty());
+            assert!(family.entrants(Extent::Quick).is_ok_and(|quick| !quick.is_empty()));
         }
         let entrants = all(Extent::Full);
         let labels: HashSet<_> = entrants.iter().map(|entrant| &entrant.label).collect();
