@@ -34,6 +34,11 @@ impl LocalSpace {
         self.local_per_world * (point_world - self.origin_world)
     }
 
+    /// A point of local space in the world.
+    pub fn point_world(&self, point: DVec3) -> DVec3 {
+        point / self.local_per_world + self.origin_world
+    }
+
     /// A length of the world in local space.
     pub fn length(&self, length_world: f64) -> f64 {
         self.local_per_world * length_world
@@ -108,6 +113,7 @@ mod tests {
         let local = LocalSpace::around(&camera(3.0, DVec3::new(5.0, -7.0, 2.0)));
         let point = DVec3::new(1.0, 2.0, 3.0);
         assert!(local.local_from_world().transform_point3(point).abs_diff_eq(local.point(point), 1e-12));
+        assert!(local.point_world(local.point(point)).abs_diff_eq(point, 1e-12));
     }
 
     #[test]

@@ -66,7 +66,7 @@ fn eight_wide_tree(bencher: Bencher, shape: Shape) {
     cast(bencher, |ray| tree.ray_traverse_miss(ray, |ray, slot| faces[slot].intersect(ray)));
 }
 
-/// The whole tracer, on all threads, with as many rays for each receiver.
+/// The whole tracer with its default options, on all threads; an item is a receiver.
 #[divan::bench(args = SHAPES)]
 fn tracer(bencher: Bencher, shape: Shape) {
     let (positions, triangles) = mesh(shape);
@@ -75,11 +75,14 @@ fn tracer(bencher: Bencher, shape: Shape) {
     let light = LightShape::Disk { center: LIGHT, normal: LIGHT, radius: RADIUS };
     let receivers: Vec<Receiver> =
         floor_points().map(|position| Receiver { position, face: 0, seen_from: LIGHT }).collect();
-    let samples = RAYS_EACH / 8;
-    let options = TraceOptions { first_samples: samples, most_samples: samples, ..Default::default() };
-    bencher
-        .counter(ItemsCount::new(SIDE * SIDE * RAYS_EACH))
-        .bench(|| trace(&occluders, &light, &receivers, &options, &|_| ()).expect("light and receivers are good"));
+    let ask = || {
+        trace(&occluders, &light, &receivers, &TraceOptions::default(), &|_| ()).expect("light and receivers are good")
+    };
+    let answers = ask();
+    let rays: u64 = answers.iter().map(|answer| u64::from(answer.samples)).sum();
+    let without_rays = answers.iter().filter(|answer| answer.samples == 0).count();
+    println!("{shape}: {rays} rays, {without_rays} of {} receivers without any", receivers.len());
+    bencher.counter(ItemsCount::new(receivers.len())).bench(ask);
 }
 
 /// Times the rays of all receivers on one thread.

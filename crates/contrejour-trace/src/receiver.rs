@@ -33,14 +33,14 @@ pub struct Visibility {
     /// The visible part of the light. Range: 0, dark, to 1, lit.
     pub mean: f64,
     /// Standard error of `mean`, from the spread of the replicates, with a degree of freedom less than these; 0 where
-    /// the answer is exact (a light without size, a light below the receiver's plane).
+    /// the answer is exact: a light without size, or below the receiver's plane, or with nothing before it.
     ///
     /// Never less than the weight of one sample, 1 / `samples`. So a receiver whose samples all agree, which have no
     /// spread, is not done before something that covers as much of the light as the wanted error would probably have
     /// been met: what is smaller than that may be missed, and moves the mean over many receivers by at most
     /// max f (1 - f)^n = 1 / (e n), a third of the wanted error.
     pub standard_error: f64,
-    /// Rays that were traced.
+    /// Rays that the mean is over; none where the answer needs none.
     pub samples: u32,
     /// How the face stands to the light.
     pub facing: Facing,

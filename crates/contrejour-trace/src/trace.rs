@@ -14,12 +14,17 @@ const BATCH: usize = 256;
 
 /// How much of a light each receiver sees, in the order of the receivers, on all threads of rayon's current pool.
 ///
+/// A receiver whose whole light is above its plane is first asked whether any face comes into the cone of rays to the
+/// light. Where none does, it sees all of the light, and no ray is needed. Faces too small or thin for the rays are
+/// found there: what is called lit without a ray is lit.
+///
 /// A receiver's answer depends on itself, its index, the occluders, the light and the options, and on nothing else.
 /// `progress` is told how many more receivers are done, from any thread.
 ///
 /// The points of the light come from the Sobol' sequence, Owen-scrambled by a hash (Burley 2020), through maps that
-/// keep areas. At 8 x 256 points half-plane, square and disk blockers come out with a root mean square error of
-/// 0.0013, a quarter of that of independent points, and it falls with the points to the power -0.75.
+/// keep areas. In the penumbras of a half plane, a square and disks, 8 x 256 of them have a root mean square error of
+/// 0.0019, which falls with their number to the power -0.75. Points of the R2 sequence (Roberts 2018), shifted at
+/// random, had 0.0023, independent points 0.0087.
 ///
 /// # Errors
 ///

@@ -6,7 +6,7 @@ use glam::DVec3;
 /// and all rounding stay far below [`BOX_MARGIN`] at this size.
 pub(crate) const HALF_SIDE: f64 = 1024.0;
 
-/// The faces' boxes are larger by this on each side, so that no box that holds a hit is missed. A ray enters the cube
+/// The faces' boxes are larger by at least this on each side, so that no box that holds a hit is missed. A ray enters the cube
 /// at most 3548 from where it leaves it. Over that way the box test is off by less than 0.0015: 3e-4 for the rounding
 /// of origin and corners (2^-24 of 2048 each), 8e-4 for that of differences, inverse and products, 4e-4 for obvhs'
 /// least direction component (2^-23).

@@ -11,7 +11,8 @@ use super::TestMesh;
 /// Where the files are, if not beside the checkout.
 const MESHES: &str = "CONTREJOUR_MESHES";
 
-fn folder() -> Option<PathBuf> {
+/// The folder; none where it is missing, which is said once.
+pub fn shared_folder() -> Option<PathBuf> {
     let folder = env::var_os(MESHES)
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/meshes"), PathBuf::from);
     if folder.is_dir() {
@@ -33,7 +34,7 @@ const REFUSED: [&str; 4] =
 ///
 /// When another file does not load.
 pub fn shared() -> Vec<TestMesh> {
-    let Some(folder) = folder() else { return Vec::new() };
+    let Some(folder) = shared_folder() else { return Vec::new() };
     let mut paths = Vec::new();
     collect_paths(&folder, &mut paths);
     paths.sort();
@@ -48,7 +49,7 @@ pub fn shared() -> Vec<TestMesh> {
 ///
 /// When the folder is there and a file does not load.
 pub fn shared_named(names: &[&str]) -> Vec<TestMesh> {
-    let Some(folder) = folder() else { return Vec::new() };
+    let Some(folder) = shared_folder() else { return Vec::new() };
     names.iter().map(|name| open(&folder, &folder.join(name)).unwrap_or_else(|error| panic!("{error}"))).collect()
 }
 

@@ -8,6 +8,7 @@ mod left_out;
 mod no_gaps;
 mod nothing_lost;
 mod nothing_per_edge;
+mod peers;
 mod pictures;
 mod repeatable;
 mod silhouettes;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         no_gaps::trials(),
         smoothie_ways::trials(),
         left_out::trials(),
+        peers::trials(),
         pictures::trials(),
         judged::trials(),
     ];

@@ -9,7 +9,8 @@ use crate::metrics::{Ratio, Timing};
 pub struct Cost {
     /// Device time of each stage and pass, in the order in which they run; empty where the device has no timestamps.
     pub stages: Vec<StageCost>,
-    /// Device time of the whole shadow work; none where the device has no timestamps.
+    /// Device time of the whole shadow work; none where the device has no timestamps that cover all of it, as where it
+    /// is software.
     pub device: Option<Timing>,
     /// Time from submission to completion of the whole shadow work.
     pub wall: Timing,
@@ -33,8 +34,8 @@ pub struct StageCost {
 /// A cost as multiples of the plain shadow map's in the same group. None where there is nothing to divide by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CostRatio {
-    /// Of each stage's time to the device time of the *whole* shadow map, since most stages have no like there. As many
-    /// as the cost has stages.
+    /// Of each stage's time to that of the *whole* shadow map, since most stages have no like there. As many as the
+    /// cost has stages.
     pub stages: Vec<StageRatio>,
     /// Of device times.
     pub device: Option<Ratio>,
@@ -48,7 +49,7 @@ pub struct CostRatio {
     pub buffers: Option<f64>,
 }
 
-/// One stage's time as a multiple of the plain shadow map's whole device time.
+/// One stage's time as a multiple of the plain shadow map's whole time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StageRatio {
     /// Name of the stage or pass.
@@ -61,5 +62,12 @@ impl Cost {
     /// The time that stands for the contestant: device time, or where that is missing wall-clock time.
     pub fn whole(&self) -> &Timing {
         self.device.as_ref().unwrap_or(&self.wall)
+    }
+}
+
+impl CostRatio {
+    /// The ratio that stands for the contestant: of device times, or where that is missing of wall-clock times.
+    pub fn whole(&self) -> Option<Ratio> {
+        self.device.or(self.wall)
     }
 }

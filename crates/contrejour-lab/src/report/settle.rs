@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::cost::{Cost, CostRatio, StageRatio};
 use super::model::{Contestant, Group, Report};
-use crate::metrics::{Timing, pareto_front};
+use crate::metrics::pareto_front;
 
 /// Name of the technique that all costs are compared with.
 pub const BASELINE_TECHNIQUE: &str = "shadow-map";
@@ -64,15 +64,14 @@ impl Contestant {
 impl CostRatio {
     /// A cost over that of the plain shadow map.
     pub fn of(cost: &Cost, baseline: &Cost) -> Self {
-        let over_device = |timing: &Timing| baseline.device.as_ref().and_then(|whole| timing.over(whole));
         let bytes = |bytes: u64, of: u64| (of > 0).then(|| bytes as f64 / of as f64);
         Self {
             stages: cost
                 .stages
                 .iter()
-                .map(|stage| StageRatio { name: stage.name.clone(), ratio: over_device(&stage.timing) })
+                .map(|stage| StageRatio { name: stage.name.clone(), ratio: stage.timing.over(baseline.whole()) })
                 .collect(),
-            device: cost.device.as_ref().and_then(over_device),
+            device: cost.device.as_ref().zip(baseline.device.as_ref()).and_then(|(device, whole)| device.over(whole)),
             wall: cost.wall.over(&baseline.wall),
             record: cost.record.over(&baseline.record),
             maps: bytes(cost.map_bytes, baseline.map_bytes),
@@ -146,7 +145,11 @@ mod tests {
         let mut group = group("square", 1024, vec![plain, contestant("pcss", "pcss", "pcss", 0.02, 3.0)]);
         group.settle();
         let ratio = group.contestants[1].ratio.as_ref().expect("there is a plain shadow map");
-        assert_eq!((ratio.buffers, ratio.device, ratio.stages[0].ratio), (None, None, None));
+        assert_eq!((ratio.buffers, ratio.device), (None, None));
         assert!(ratio.maps.is_some() && ratio.wall.is_some());
+        // Wall-clock time stands in.
+        assert_eq!(ratio.whole(), ratio.wall);
+        let whole = group.contestants[0].cost.wall;
+        assert_eq!(ratio.stages[0].ratio, group.contestants[1].cost.stages[0].timing.over(&whole));
     }
 }

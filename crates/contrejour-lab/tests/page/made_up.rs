@@ -123,11 +123,17 @@ fn contestant(
     let texel = 2.0 / map_size as f32;
     let drawn = |shift: f32| shadow(shift, radius + made_up.offset * penumbra + 4.0 * texel, penumbra * made_up.width);
     let visibility = drawn(0.0);
-    let [picture, difference] = ["", "-difference"]
-        .map(|what| format!("pictures/{scene}-{map_size}-{}{what}.png", made_up.label.replace([' ', '\''], "-")));
-    let save = |picture: image::RgbaImage, path: &str| picture.save(folder.join(path)).expect("saved");
-    save(visibility_picture(SIZE, &visibility, receivers).expect("the sizes agree"), &picture);
-    save(difference_picture(SIZE, truth, &visibility, receivers).expect("the sizes agree"), &difference);
+    // The page shows the pictures of one size.
+    let [picture, difference] = ["", "-difference"].map(|what| {
+        let name = made_up.label.replace([' ', '\''], "-");
+        (map_size == 1024).then(|| format!("pictures/{scene}-{map_size}-{name}{what}.png"))
+    });
+    if let [Some(picture), Some(difference)] = [&picture, &difference] {
+        let drawn = visibility_picture(SIZE, &visibility, receivers).expect("the sizes agree");
+        drawn.save(folder.join(picture)).expect("saved");
+        let drawn = difference_picture(SIZE, truth, &visibility, receivers).expect("the sizes agree");
+        drawn.save(folder.join(difference)).expect("saved");
+    }
 
     let steps = [0.0, 0.01, 0.02];
     let true_frames = steps.map(|shift| shadow(shift, radius, penumbra));
@@ -148,8 +154,8 @@ fn contestant(
             motion: motion_excess(&true_frames, &frames, receivers).expect(sound),
         },
         cost: cost(made_up, map_size),
-        picture: Some(picture),
-        difference: Some(difference),
+        picture,
+        difference,
         stands: false,
         on_front: false,
         ratio: None,

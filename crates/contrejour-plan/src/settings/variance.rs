@@ -45,8 +45,12 @@ impl VarianceSettings {
         Self { warp_exponent: 0.0, softness: VarianceSoftness::Texels(4.0), bleed_cut: 0.2, min_variance: 1e-6 };
 
     /// Warped, evenly blurred.
-    pub const EVSM: Self =
-        Self { warp_exponent: Self::MAX_EXPONENT_OF_HALVES, softness: VarianceSoftness::Texels(4.0), bleed_cut: 0.05, min_variance: 1e-8 };
+    pub const EVSM: Self = Self {
+        warp_exponent: Self::MAX_EXPONENT_OF_HALVES,
+        softness: VarianceSoftness::Texels(4.0),
+        bleed_cut: 0.05,
+        min_variance: 1e-8,
+    };
 
     /// Plain, blurred as the light's size asks.
     pub const VSM_PCSS: Self = Self { softness: VarianceSoftness::FROM_LIGHT_SIZE, ..Self::VSM };

@@ -56,9 +56,8 @@ mod tests {
 
     #[test]
     fn odd_frames_have_other_records_and_even_ones_the_same() {
-        let record = |light: &Light| {
-            contrejour_plan::views(light).expect("a good light")[0].receiver_view(&Default::default())
-        };
+        let record =
+            |light: &Light| contrejour_plan::views(light).expect("a good light")[0].receiver_view(&Default::default());
         for direction in [DVec3::X, DVec3::Y, -DVec3::Z, DVec3::new(0.3, 5.0, -2.0), DVec3::splat(1e-200)] {
             for light in [spot(4.0 * direction.normalize_or(DVec3::ONE)), sun(direction)] {
                 assert_eq!(rocked(&light, 0), light);

@@ -1,6 +1,6 @@
 //! Disk lights parallel to the floor: each blocker has an image on the light's plane, larger by the ratio of heights.
 
-use contrejour_trace::{LightShape, TraceOptions};
+use contrejour_trace::{LightShape, TraceOptions, Visibility};
 use glam::{DVec2, DVec3};
 
 use crate::blockers::{BLOCKER, disk, fixed, floor_points, half_plane, traced};
@@ -62,17 +62,21 @@ pub fn cases() -> [Case; 4] {
 impl Case {
     /// Points of the floor that see a part of the light, and how much.
     pub fn penumbra(&self, radius: f64) -> (Vec<DVec2>, Vec<f64>) {
-        floor_points(self.edge, 0.5, 1500)
+        floor_points(self.edge, 0.5, 800)
             .map(|point| (point, 1.0 - (self.hidden)(point, RADIUS), 1.0 - (self.hidden)(point, radius)))
             .filter(|(_, seen, _)| (0.02..0.98).contains(seen))
             .map(|(point, _, exact)| (point, exact))
             .unzip()
     }
 
+    fn traced(&self, points: &[DVec2], options: &TraceOptions) -> Vec<Visibility> {
+        let light = LightShape::Disk { center: DVec3::Y * LIGHT, normal: DVec3::Y, radius: RADIUS };
+        traced(&self.blocker, &light, points, options)
+    }
+
     pub fn differences(&self, radius: f64, options: &TraceOptions) -> Differences {
         let (points, exact) = self.penumbra(radius);
-        let light = LightShape::Disk { center: DVec3::Y * LIGHT, normal: DVec3::Y, radius: RADIUS };
-        Differences::of(&traced(&self.blocker, &light, &points, options), &exact)
+        Differences::of(&self.traced(&points, options), &exact)
     }
 }
 
@@ -89,6 +93,35 @@ fn answers_are_the_truth() {
 fn a_hundredth_of_the_radius_is_seen() {
     for case in cases() {
         let found = case.differences(1.01 * RADIUS, &fixed(256)).check();
+        println!("{}: {found:?}", case.name);
         assert!(found.is_err(), "{}: the truth of a larger light passes", case.name);
+    }
+}
+
+#[test]
+fn what_needs_no_ray_is_lit() {
+    for case in cases() {
+        let points: Vec<DVec2> = floor_points(case.edge, 1.0, 2000).collect();
+        let answers = case.traced(&points, &TraceOptions::default());
+        let (mut lit, mut lit_without_rays) = (0, 0);
+        for (point, answer) in points.iter().zip(&answers) {
+            let hidden = (case.hidden)(*point, RADIUS);
+            if answer.samples == 0 {
+                assert!(answer.mean == 1.0 && hidden < 1e-9, "{}: {point}, {hidden}, {answer:?}", case.name);
+                lit_without_rays += 1;
+            }
+            lit += u32::from(hidden < 1e-9);
+        }
+        assert!(lit > 500 && 10 * lit_without_rays > 9 * lit, "{}: {lit_without_rays} of {lit}", case.name);
+    }
+}
+
+#[test]
+fn umbras_are_dark() {
+    let case = &cases()[0];
+    let points: Vec<DVec2> = floor_points(DVec2::new(-2.0, 0.0), 1.0, 200).collect();
+    for answer in case.traced(&points, &TraceOptions::default()) {
+        assert_eq!(answer.mean, 0.0);
+        assert_eq!(answer.standard_error, 1.0 / f64::from(answer.samples), "a sample is the least that can be told");
     }
 }

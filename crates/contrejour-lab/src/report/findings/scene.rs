@@ -1,7 +1,7 @@
 //! What the figures say about one scene.
 
 use super::super::number::{percent, significant};
-use super::super::{Contestant, Group};
+use super::super::{Contestant, CostRatio, Group};
 use super::compare::{error, listed, with_errors};
 
 /// An umbra that is wrong on less than this share of the receivers is not worth a sentence.
@@ -29,7 +29,7 @@ pub(super) fn sentences(group: &Group) -> Vec<String> {
 
 fn most_exact(group: &Group) -> Option<String> {
     let best = group.most_exact(|_| true)?;
-    let time = best.ratio.as_ref().and_then(|ratio| ratio.device.or(ratio.wall));
+    let time = best.ratio.as_ref().and_then(CostRatio::whole);
     let at = time.map_or(String::new(), |ratio| {
         format!(", in {} times the time of the plain shadow map", significant(ratio.median, 3))
     });

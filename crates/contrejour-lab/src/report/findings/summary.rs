@@ -64,10 +64,7 @@ fn place_all(scenes: usize) -> String {
 
 /// The range of times of smoothies and of the most exact other soft shadow, as ratios to the plain shadow map.
 fn times(groups: &[&Group]) -> Option<String> {
-    let ratio = |contestant: &Contestant| {
-        let ratio = contestant.ratio.as_ref()?;
-        Some(ratio.device.or(ratio.wall)?.median)
-    };
+    let ratio = |contestant: &Contestant| Some(contestant.ratio.as_ref()?.whole()?.median);
     let ours = groups.iter().flat_map(|group| group.standing().filter(|ours| ours.is_ours())).filter_map(ratio);
     let peers = groups.iter().filter_map(|group| group.most_exact(Contestant::is_peer)).filter_map(ratio);
     let ours = range(ours)?;

@@ -26,10 +26,7 @@ const COLUMNS: [Column; 3] = [
     },
     Column {
         head: "time",
-        value: |contestant| {
-            let ratio = contestant.ratio.as_ref()?;
-            Some(ratio.device.or(ratio.wall)?.median)
-        },
+        value: |contestant| Some(contestant.ratio.as_ref()?.whole()?.median),
         print: |value| format!("{}×", significant(value, 3)),
     },
 ];

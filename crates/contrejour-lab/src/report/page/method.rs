@@ -53,7 +53,7 @@ pub(super) fn text(report: &Report) -> Markup {
                 "Median over frames after warm-up with 10th and 90th percentile. Contestants of one scene and map size "
                 "take turns frame by frame, so that drift hits all alike. Device: timestamps around the whole shadow "
                 "work. Wall-clock: from submission to completion. Record: CPU time to prepare and record. Where a "
-                "device has no timestamps, wall-clock stands in."
+                "device has no timestamps that cover all of its work, wall-clock stands in."
             }
             dt { "×" }
             dd {

@@ -42,7 +42,7 @@ fn body(group: &Group) -> Markup {
         @for contestant in group.standing() {
             tr {
                 th scope="row" { (contestant.family) }
-                td { @if let Some(device) = &contestant.cost.device { (timing(device)) } @else { "–" } }
+                td { (timing(contestant.cost.whole())) }
                 @for name in stages(group) {
                     @let stage = contestant.cost.stages.iter().find(|stage| stage.name == name);
                     (number(stage.map(|stage| significant(stage.timing.median_ms, 2)), false))

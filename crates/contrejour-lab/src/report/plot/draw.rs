@@ -159,7 +159,11 @@ fn finish(drawing: &str, title: &str, height: i32, plot_use: PlotUse) -> String 
         PlotUse::Inline => (String::new(), ""),
         PlotUse::File => (
             format!(r#"width="{WIDTH}" height="{height}" "#),
-            "<style>svg { color: #1b1d21 } @media (prefers-color-scheme: dark) { svg { color: #e6e4df } }</style>\n",
+            // With a ground of its own: what is behind a lone file need not be as dark as its reader's system.
+            "<style>\n\
+             svg { color: #1b1d21; background: #fbfaf7 }\n\
+             @media (prefers-color-scheme: dark) { svg { color: #e6e4df; background: #15161a } }\n\
+             </style>\n",
         ),
     };
     let inner = inner.trim_start();

@@ -39,9 +39,9 @@ pub enum PlotError {
 /// A way to put a plot somewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotUse {
-    /// In a page: as wide as its box, in the page's text colour.
+    /// In a page: as wide as its box, on its ground and in its text colour.
     Inline,
-    /// A file of its own: of a fixed size, dark on light or light on dark as the reader's system wants.
+    /// A file of its own: of a fixed size, on a ground that is light or dark as the reader's system wants.
     File,
 }
 
