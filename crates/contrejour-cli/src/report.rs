@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use contrejour_lab::report::{CSV_FILE, JSON_FILE, PAGE_FILE, Report};
-use contrejour_lab::run::{Effort, NamedScene, RunOptions, Shard, default_sizes, merge, run as measure};
+use contrejour_lab::run::{NamedScene, RunOptions, Shard, default_sizes, merge, run as measure};
 use contrejour_render::Gpu;
 use serde_json::json;
 
@@ -25,13 +25,14 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
 
 fn measured(arguments: &ReportArguments, command: String) -> Result<Report, Failure> {
     let scenes = arguments.scene_names().iter().map(|name| named_scene(name)).collect::<Result<_, Failure>>()?;
+    let effort = arguments.effort();
     let sizes =
-        if arguments.sizes.is_empty() { default_sizes(arguments.extent()).to_vec() } else { arguments.sizes.clone() };
+        if arguments.sizes.is_empty() { default_sizes(effort.extent).to_vec() } else { arguments.sizes.clone() };
     let options = RunOptions {
         scenes,
         sizes,
         techniques: arguments.techniques.clone(),
-        effort: Effort::of(arguments.extent()),
+        effort,
         seed: arguments.seed,
         shard: arguments.shard.unwrap_or(Shard::WHOLE),
         restart: arguments.restart,

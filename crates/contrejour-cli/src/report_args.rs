@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use contrejour_lab::report::Extent;
-use contrejour_lab::run::{QUICK_SCENES, Shard};
+use contrejour_lab::run::{Effort, QUICK_SCENES, Shard};
 use contrejour_scene::BUILT_IN_SCENES;
+
+use crate::values::parse_size;
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
@@ -26,6 +28,10 @@ pub struct ReportArguments {
     #[arg(long)]
     pub quick: bool,
 
+    /// Pixels of the compared pictures [default: 640x480; with --quick 320x240]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub picture_size: Option<[u32; 2]>,
+
     /// Seed of everything random
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
@@ -39,7 +45,7 @@ pub struct ReportArguments {
     pub restart: bool,
 
     /// Put the folders of all shards together instead of measuring
-    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["scenes", "techniques", "sizes", "quick", "seed", "shard", "restart"])]
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["scenes", "techniques", "sizes", "quick", "picture_size", "seed", "shard", "restart"])]
     pub merge: Vec<PathBuf>,
 
     /// Where everything goes; made where it is missing. The same command again goes on with what is there
@@ -54,8 +60,9 @@ pub struct ReportArguments {
 const AFTER_HELP: &str = "The last line that is printed is the path of the page.";
 
 impl ReportArguments {
-    pub fn extent(&self) -> Extent {
-        if self.quick { Extent::Quick } else { Extent::Full }
+    pub fn effort(&self) -> Effort {
+        let effort = Effort::of(if self.quick { Extent::Quick } else { Extent::Full });
+        Effort { picture_size: self.picture_size.unwrap_or(effort.picture_size), ..effort }
     }
 
     /// Names of the scenes, asked for or not.

@@ -7,7 +7,7 @@ use crate::program::Folder;
 use crate::{Outcome, cpu_trial, gpu_trial};
 
 /// As little as a report can be.
-const TINY: &str = "report --quick --scenes square,boxes --sizes 32,48 --techniques shadow-map,pcf";
+const TINY: &str = "report --quick --picture-size 64x48 --scenes square,boxes --sizes 32,48 --techniques shadow-map,pcf,smoothies-0.08";
 
 pub fn trials() -> Vec<Trial> {
     vec![
@@ -66,7 +66,7 @@ fn shards_merge() -> Outcome {
 /// The same arguments measure nothing again; others are refused, or start all over.
 fn goes_on() -> Outcome {
     let folder = Folder::new();
-    let tiny = "report --quick --scenes square --techniques shadow-map,pcf -o out";
+    let tiny = "report --quick --picture-size 64x48 --scenes square --techniques shadow-map,pcf -o out";
     folder.run(&format!("{tiny} --sizes 32,48")).stdout()?;
     let first = read(&folder, "out")?;
     std::fs::remove_file(folder.path("out/groups/square-48.json")).map_err(|error| error.to_string())?;

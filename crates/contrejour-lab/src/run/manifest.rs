@@ -95,7 +95,7 @@ impl Manifest {
         [
             (*version != other.header.version, "version of contrejour"),
             (*seed != other.header.seed, "seed"),
-            (self.effort != other.effort, "extent (--quick or not)"),
+            (self.effort != other.effort, "extent (--quick or not) or picture size"),
             (self.scenes != other.scenes, "scene"),
             (self.sizes != other.sizes, "list of map sizes"),
             (self.techniques != other.techniques, "list of techniques"),
