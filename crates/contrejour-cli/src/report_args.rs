@@ -21,7 +21,8 @@ pub struct ReportArguments {
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     pub techniques: Vec<String>,
 
-    /// Texels along a side of the shadow map, separated by commas [default: 256,512,1024,2048; with --quick 256,512,1024]
+    /// Texels along a side of the shadow map, separated by commas [default: 256,512,1024,2048; with --quick
+    /// 256,512,1024]
     #[arg(long, value_name = "N,..", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
     pub sizes: Vec<u32>,
 
