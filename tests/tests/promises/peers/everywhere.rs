@@ -5,14 +5,14 @@ use contrejour_scene::{BUILT_IN_SCENES, Scene};
 use contrejour_tests::harness::Outcome;
 use contrejour_tests::meshes::shared_folder;
 
-use super::judged_scene::{JudgedScene, plates, rmse, settings, text_of};
+use super::judged_scene::{Care, JudgedScene, plates, rmse, settings, text_of};
 
 const SIZE: [u32; 2] = [120, 80];
 const MAP_SIZE: u32 = 512;
 
-/// Techniques whose shadow is missing, in the wrong place, or all over are farther from the truth than no shadow at all,
-/// by which a technique's error is measured; these are near or below half of it.
-const MOST_OF_NO_SHADOW: f64 = 0.72;
+/// The error of drawing no shadow at all is the measure. A shadow that is missing or in the wrong place has about as much;
+/// techniques have at most 0.37 of it here.
+const MOST_OF_NO_SHADOW: f64 = 0.5;
 
 pub fn all_come_near_the_truth() -> Outcome {
     for built_in in BUILT_IN_SCENES {
@@ -24,7 +24,7 @@ pub fn all_come_near_the_truth() -> Outcome {
     let scene = judged(scene)?;
     let mut swallowed = settings("pcf", &[], MAP_SIZE);
     swallowed.bias.constant_texels = 2000.0;
-    let truth = scene.truth(scene.light())?;
+    let truth = scene.truth(scene.light(), Care::Coarse)?;
     match near(&scene, &truth, &swallowed) {
         Err(_) => Ok(()),
         Ok(()) => Err("no shadow at all passes".into()),
@@ -48,7 +48,7 @@ fn judged(mut scene: Scene) -> Result<JudgedScene, String> {
 
 fn compare(name: &str, scene: Scene, techniques: &[&str]) -> Outcome {
     let scene = judged(scene)?;
-    let truth = scene.truth(scene.light())?;
+    let truth = scene.truth(scene.light(), Care::Coarse)?;
     for technique in techniques {
         near(&scene, &truth, &settings(technique, &[], MAP_SIZE)).map_err(|error| format!("{name}: {error}"))?;
     }
