@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::report_args::ReportArguments;
 use crate::shadow_args::ShadowArguments;
 use crate::values::{parse_size, parse_vector};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -26,6 +27,8 @@ pub enum Command {
     Inspect(InspectArguments),
     /// Print what a frame of a scene would do, and what it leaves out and why
     Plan(PlanArguments),
+    /// Measure error against run time of all techniques, and write a page about it
+    Report(ReportArguments),
 }
 
 #[derive(Debug, Args)]

@@ -1,4 +1,4 @@
-//! The binary `contrejour`: render, silhouette, inspect and plan from a shell.
+//! The binary `contrejour`: render, silhouette, inspect, plan and report from a shell.
 
 mod args;
 mod failure;
@@ -8,6 +8,9 @@ mod output;
 mod plan;
 mod render;
 mod render_json;
+mod report;
+mod report_args;
+mod report_progress;
 mod scenes;
 mod shadow_args;
 mod silhouette;
@@ -30,6 +33,7 @@ fn main() -> ExitCode {
         Command::Silhouette(arguments) => silhouette::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,6 +2,7 @@
 
 pub mod metrics;
 pub mod report;
+pub mod run;
 mod torus;
 
 pub use torus::{Triangles, torus};

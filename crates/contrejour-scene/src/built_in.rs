@@ -20,6 +20,7 @@ pub const BUILT_IN_SCENES: &[BuiltInScene] = &[
     BuiltInScene { name: "cylinder", toml: include_str!("../assets/scenes/cylinder.toml") },
     BuiltInScene { name: "fence", toml: include_str!("../assets/scenes/fence.toml") },
     BuiltInScene { name: "boxes", toml: include_str!("../assets/scenes/boxes.toml") },
+    BuiltInScene { name: "square", toml: include_str!("../assets/scenes/square.toml") },
 ];
 
 impl BuiltInScene {

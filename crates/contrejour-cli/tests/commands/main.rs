@@ -3,6 +3,7 @@
 mod bad_input;
 mod program;
 mod render;
+mod report;
 mod reports;
 mod silhouette;
 mod xml;
@@ -17,7 +18,14 @@ use libtest_mimic::{Arguments, Completion, Failed, Trial};
 type Outcome = Result<(), String>;
 
 fn main() -> ExitCode {
-    let trials = [silhouette::trials(), render::trials(), reports::trials(), bad_input::trials(), xml::trials()];
+    let trials = [
+        silhouette::trials(),
+        render::trials(),
+        reports::trials(),
+        report::trials(),
+        bad_input::trials(),
+        xml::trials(),
+    ];
     libtest_mimic::run(&Arguments::from_args(), trials.into_iter().flatten().collect()).exit_code()
 }
 

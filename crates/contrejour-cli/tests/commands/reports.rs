@@ -48,7 +48,7 @@ fn inspect_tells() -> Outcome {
 
 fn help_and_version_are_no_errors() -> Outcome {
     let folder = Folder::new();
-    expect_all(&folder.run("--help").stdout()?, &["render", "silhouette", "inspect", "plan"])?;
+    expect_all(&folder.run("--help").stdout()?, &["render", "silhouette", "inspect", "plan", "report"])?;
     expect_all(&folder.run("silhouette --help").stdout()?, &["--point", "--direction", "--format"])?;
     expect_all(&folder.run("--version").stdout()?, &[env!("CARGO_PKG_VERSION")])
 }

@@ -1,0 +1,99 @@
+//! `contrejour report`: resume, shards, merge, and that two runs find the same.
+
+use contrejour_lab::report::{Disagreement, Report};
+use libtest_mimic::Trial;
+
+use crate::program::Folder;
+use crate::{Outcome, cpu_trial, gpu_trial};
+
+/// As little as a report can be.
+const TINY: &str = "report --quick --picture-size 64x48 --scenes square,boxes --sizes 32,48 \
+                    --techniques shadow-map,pcf,smoothies-0.08";
+
+pub fn trials() -> Vec<Trial> {
+    vec![
+        cpu_trial("report::what_cannot_be_measured_is_refused", nonsense_is_refused),
+        gpu_trial("report::shards_merge_into_what_one_run_finds", shards_merge),
+        gpu_trial("report::goes_on_and_refuses_another_seed", goes_on),
+    ]
+}
+
+fn nonsense_is_refused() -> Outcome {
+    let folder = Folder::new();
+    for (arguments, expected) in [
+        ("report --scenes nothing -o out", "nothing"),
+        ("report --merge missing -o out", "holds no run"),
+        ("report --shard 3/2 -o out", "no shard"),
+    ] {
+        let refusal = folder.run(arguments).refusal()?;
+        if !refusal.contains(expected) {
+            return Err(format!("{arguments}: {refusal}"));
+        }
+    }
+    Ok(())
+}
+
+/// Two shards make the whole run's error figures to the last digit, and another seed does not.
+fn shards_merge() -> Outcome {
+    let folder = Folder::new();
+    let page = folder.run(&format!("{TINY} -o whole")).stdout()?;
+    if page.lines().last() != Some("whole/index.html") {
+        return Err(format!("the page's path should come last: {page}"));
+    }
+    for number in [1, 2] {
+        folder.run(&format!("{TINY} --shard {number}/2 -o part{number}")).stdout()?;
+    }
+    let refusal = folder.run("report --merge part1 -o merged").refusal()?;
+    if !refusal.contains("shard 2/2 is missing") {
+        return Err(refusal);
+    }
+    let told = folder.run("report --merge part2 part1 -o merged --json").json()?;
+    if told["page"] != "merged/index.html" || told["groups"] != 4 {
+        return Err(told.to_string());
+    }
+    let [whole, merged] = [read(&folder, "whole")?, read(&folder, "merged")?];
+    differences(&whole, &merged)?;
+    if !folder.read("merged/index.html")?.contains("data:image/png") {
+        return Err("the merged page should hold pictures".into());
+    }
+
+    folder.run(&format!("{TINY} --seed 2 -o seeded")).stdout()?;
+    match differences(&whole, &read(&folder, "seeded")?) {
+        Ok(()) => Err("another seed should give other figures".into()),
+        Err(_) => Ok(()),
+    }
+}
+
+/// The same arguments measure nothing again; others are refused, or start all over.
+fn goes_on() -> Outcome {
+    let folder = Folder::new();
+    let tiny = "report --quick --picture-size 64x48 --scenes square --techniques shadow-map,pcf -o out";
+    folder.run(&format!("{tiny} --sizes 32,48")).stdout()?;
+    let first = read(&folder, "out")?;
+    std::fs::remove_file(folder.path("out/groups/square-48.json")).map_err(|error| error.to_string())?;
+    folder.run(&format!("{tiny} --sizes 32,48")).stdout()?;
+    let second = read(&folder, "out")?;
+    if first.groups[0] != second.groups[0] {
+        return Err("a kept group should not be measured again".into());
+    }
+    differences(&first, &second)?;
+    let refusal = folder.run(&format!("{tiny} --sizes 32,48 --seed 9")).refusal()?;
+    if !(refusal.contains("another seed") && refusal.contains("--restart")) {
+        return Err(refusal);
+    }
+    let again = folder.run(&format!("{tiny} --sizes 32 --seed 9 --restart --json")).json()?;
+    if again["groups"] == 1 { Ok(()) } else { Err(again.to_string()) }
+}
+
+fn read(folder: &Folder, name: &str) -> Result<Report, String> {
+    Report::read(&folder.path(name)).map_err(|error| error.to_string())
+}
+
+/// What two reports do not agree on, times left aside: so few frames on a busy machine say nothing about them.
+fn differences(one: &Report, other: &Report) -> Outcome {
+    let is_error = |found: &Disagreement| !matches!(found, Disagreement::Ratio { .. });
+    match one.disagreements(other).into_iter().find(is_error) {
+        Some(found) => Err(found.to_string()),
+        None => Ok(()),
+    }
+}

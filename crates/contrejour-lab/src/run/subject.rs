@@ -1,0 +1,148 @@
+//! A scene that techniques are judged by: on the device, and for the tracer.
+
+use std::hash::{DefaultHasher, Hasher};
+
+use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
+use contrejour_plan::{Light, LightKind, View, views};
+use contrejour_render::{Gpu, Judge};
+use contrejour_scene::Scene;
+use contrejour_trace::{LightShape, OccluderMesh, Occluders, Receiver, TraceOptions, Visibility, trace};
+use glam::DVec3;
+
+use super::error::RunError;
+
+/// A scene and what the report calls it.
+#[derive(Clone, Debug)]
+pub struct NamedScene {
+    /// Its name, which no other scene of the run has.
+    pub name: String,
+    /// The scene.
+    pub scene: Scene,
+}
+
+/// A scene on the device and in the tracer, with the points that its picture shows.
+pub(crate) struct Subject {
+    pub scene: Scene,
+    pub judge: Judge,
+    occluders: Occluders,
+    /// In local space, as everything that is traced.
+    receivers: Vec<Receiver>,
+    /// For each receiver, its pixel.
+    pixels: Vec<usize>,
+}
+
+impl Subject {
+    pub fn new(gpu: &Gpu, named: &NamedScene, picture_size: [u32; 2]) -> Result<Self, RunError> {
+        let mut scene = named.scene.clone();
+        scene.resize(picture_size);
+        let judge = Judge::new(gpu.clone(), &scene)?;
+        let local = judge.local_space();
+        let meshes: Vec<OccluderMesh> = scene
+            .meshes
+            .iter()
+            .map(|placed| OccluderMesh {
+                positions: &placed.mesh.positions,
+                triangles: &placed.mesh.triangles,
+                world_from_object: local.local_from_world() * placed.world_from_object,
+                casts: placed.casts,
+            })
+            .collect();
+        let occluders = Occluders::new(&meshes)?;
+        let seen_from = local.point(scene.camera.eye);
+        let points = judge.receivers()?.points;
+        let (pixels, receivers): (Vec<usize>, Vec<Receiver>) = (0..)
+            .zip(points)
+            .filter_map(|(pixel, point)| Some((pixel, point?)))
+            .filter(|(_, point)| occluders.has_area(point.face_id))
+            .map(|(pixel, point)| {
+                (pixel, Receiver { position: point.position.as_dvec3(), face: point.face_id, seen_from })
+            })
+            .unzip();
+        if receivers.is_empty() {
+            return Err(RunError::NothingToCompare { scene: named.name.clone() });
+        }
+        Ok(Self { scene, judge, occluders, receivers, pixels })
+    }
+
+    /// Number of pixels of its picture.
+    pub fn pixel_count(&self) -> usize {
+        self.scene.size.map(|side| side as usize).iter().product()
+    }
+
+    /// Pixel of each receiver.
+    pub fn pixels(&self) -> &[usize] {
+        &self.pixels
+    }
+
+    /// How much of a light, which is somewhere in the scene's world, the first of every `stride` receivers see.
+    pub fn trace(
+        &self,
+        light: &Light,
+        options: &TraceOptions,
+        stride: usize,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Vec<Visibility>, RunError> {
+        let shape = LightShape::of(&self.judge.local_space().light(light))?;
+        let chosen: Vec<Receiver> = self.receivers.iter().step_by(stride).copied().collect();
+        Ok(trace(&self.occluders, &shape, &chosen, options, progress)?)
+    }
+
+    /// For each receiver, whether a light's maps show it: what is outside is lit by definition and not compared.
+    pub fn in_maps(&self, light: &Light) -> Result<Vec<bool>, RunError> {
+        let views = views(&self.judge.local_space().light(light))?;
+        let is_in = |receiver: &Receiver| views.iter().any(|view| shows(view, receiver.position));
+        Ok(self.receivers.iter().map(is_in).collect())
+    }
+
+    /// Faces of all casters, and edges that can be in their silhouettes.
+    pub fn faces_and_edges(&self) -> Result<[u64; 2], RunError> {
+        let mut counts = [0, 0];
+        for placed in self.scene.meshes.iter().filter(|placed| placed.casts && !placed.mesh.triangles.is_empty()) {
+            let topology =
+                TopologyAwareMesh::build(&placed.mesh.positions, &placed.mesh.triangles, &BuildOptions::default())?;
+            counts[0] += topology.faces.len() as u64;
+            counts[1] += u64::from(topology.candidate_edge_count);
+        }
+        Ok(counts)
+    }
+
+    /// Size of the light as its kind means it: radius in metres, or angular radius in radians.
+    pub fn light_size(&self) -> f64 {
+        match self.scene.light.kind {
+            LightKind::Spot { radius, .. } => radius,
+            LightKind::Directional { angular_radius, .. } => angular_radius,
+        }
+    }
+
+    /// A number that changes with the receivers, which another device may place otherwise.
+    pub fn receivers_fingerprint(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        for (receiver, pixel) in self.receivers.iter().zip(&self.pixels) {
+            receiver.position.to_array().into_iter().for_each(|value| hasher.write_u64(value.to_bits()));
+            hasher.write_u32(receiver.face);
+            hasher.write_usize(*pixel);
+        }
+        hasher.finish()
+    }
+}
+
+impl NamedScene {
+    /// A number that changes with what is seen, what casts and what shines.
+    pub(super) fn fingerprint(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        let Scene { camera, light, shadow, ambient, background, meshes, .. } = &self.scene;
+        hasher.write(format!("{camera:?} {light:?} {shadow:?} {ambient:?} {background:?}").as_bytes());
+        for placed in meshes {
+            let (casts, receives) = (placed.casts, placed.receives);
+            hasher.write(format!("{:?} {:?} {casts} {receives}", placed.world_from_object, placed.material).as_bytes());
+            hasher.write(bytemuck::cast_slice(&placed.mesh.positions));
+            hasher.write(bytemuck::cast_slice(&placed.mesh.triangles));
+        }
+        hasher.finish()
+    }
+}
+
+fn shows(view: &View, position: DVec3) -> bool {
+    let clip = view.light_clip_from_world * position.extend(1.0);
+    clip.w > 0.0 && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w && clip.z <= clip.w
+}
