@@ -197,7 +197,7 @@ mod tests {
     }
     #[test]
     fn halves_hold_less_warp() {
-        let technique = Technique::Variance(VarianceSettings::EVSM);
+        let technique = Technique::Variance(VarianceSettings { warp_exponent: 40.0, ..VarianceSettings::EVSM });
         let settings = ShadowSettings { technique, ..ShadowSettings::default() };
         let able = DeviceFacts { float32_filterable: true, ..DeviceFacts::default() };
         assert_eq!(settings.on_device(&able), settings);
