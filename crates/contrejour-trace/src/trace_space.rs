@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-/// Half the side of the cube that holds all faces. The tree's box tests are in `f32`; CWBVH-like constants of theirs
-/// and all rounding stay far below [`BOX_MARGIN`] at this size.
+/// Half the side of the cube that holds all faces. The tree's boxes and rays are in `f32`: at this size their rounding
+/// stays below [`BOX_MARGIN`].
 pub(crate) const HALF_SIDE: f64 = 1024.0;
 
-/// The faces' boxes are larger by at least this on each side, so that no box that holds a hit is missed. A ray enters the cube
-/// at most 3548 from where it leaves it. Over that way the box test is off by less than 0.0015: 3e-4 for the rounding
-/// of origin and corners (2^-24 of 2048 each), 8e-4 for that of differences, inverse and products, 4e-4 for obvhs'
-/// least direction component (2^-23).
+/// The faces' boxes are larger by at least this on each side, so that no box that holds a hit is missed. A ray enters
+/// the cube at most 3548 from where it leaves it. Over that way the box test is off by less than 0.0015: 3e-4 for the
+/// rounding of origin and corners (2^-24 of 2048 each), 8e-4 for that of differences, inverse and products, 4e-4 for
+/// obvhs' least direction component (2^-23).
 pub(crate) const BOX_MARGIN: f64 = 1.0 / 256.0;
 
 /// The world, moved so that the middle of all faces is the origin, and scaled by a power of two so that the cube of

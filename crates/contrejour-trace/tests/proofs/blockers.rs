@@ -26,7 +26,7 @@ pub fn half_plane() -> Vec<DVec2> {
     [[-50.0, -50.0], [0.0, -50.0], [0.0, 50.0], [-50.0, 50.0]].map(DVec2::from).into()
 }
 
-/// A regular polygon with the area of a disk; for 2000 corners its outline is within 1e-6 of the radius from the disk's.
+/// A regular polygon with the area of a disk, whose outline is within 2e-6 of the radius from the disk's.
 pub fn disk(radius: f64) -> Vec<DVec2> {
     let corners = 2000;
     let angle = TAU / f64::from(corners);

@@ -5,7 +5,7 @@ use contrejour_scene::{BUILT_IN_SCENES, Scene};
 use contrejour_tests::harness::Outcome;
 use contrejour_tests::meshes::shared_folder;
 
-use super::judged_scene::{JudgedScene, plates, rmse, settings, text_of};
+use super::judged_scene::{Care, JudgedScene, plates, rmse, settings, text_of};
 
 const SIZE: [u32; 2] = [120, 80];
 const MAP_SIZE: u32 = 512;
@@ -24,7 +24,7 @@ pub fn all_come_near_the_truth() -> Outcome {
     let scene = judged(scene)?;
     let mut swallowed = settings("pcf", &[], MAP_SIZE);
     swallowed.bias.constant_texels = 2000.0;
-    let truth = scene.truth(scene.light())?;
+    let truth = scene.truth(scene.light(), Care::Coarse)?;
     match near(&scene, &truth, &swallowed) {
         Err(_) => Ok(()),
         Ok(()) => Err("no shadow at all passes".into()),
@@ -48,7 +48,7 @@ fn judged(mut scene: Scene) -> Result<JudgedScene, String> {
 
 fn compare(name: &str, scene: Scene, techniques: &[&str]) -> Outcome {
     let scene = judged(scene)?;
-    let truth = scene.truth(scene.light())?;
+    let truth = scene.truth(scene.light(), Care::Coarse)?;
     for technique in techniques {
         near(&scene, &truth, &settings(technique, &[], MAP_SIZE)).map_err(|error| format!("{name}: {error}"))?;
     }

@@ -8,8 +8,24 @@ use contrejour_scene::Scene;
 use contrejour_trace::{LightShape, OccluderMesh, Occluders, Receiver, TraceOptions, trace};
 use glam::DVec3;
 
-/// Standard error at which the truth is exact enough.
-const TRUTH_ERROR: f64 = 0.004;
+/// How carefully the truth is traced.
+#[derive(Clone, Copy)]
+pub enum Care {
+    /// Far below the errors of techniques on scenes as theory likes them.
+    Fine,
+    /// Enough to tell a shadow from none.
+    Coarse,
+}
+
+impl Care {
+    fn options(self) -> TraceOptions {
+        let (most_samples, target_error) = match self {
+            Self::Fine => (256, 0.006),
+            Self::Coarse => (16, 0.03),
+        };
+        TraceOptions { first_samples: 8, most_samples, target_error, ..TraceOptions::default() }
+    }
+}
 
 /// One scene with what is asked of it.
 pub struct JudgedScene {
@@ -81,16 +97,15 @@ impl JudgedScene {
     }
 
     /// The truth under a light, one value a receiver.
-    pub fn truth(&self, light: &Light) -> Result<Vec<f64>, String> {
+    pub fn truth(&self, light: &Light, care: Care) -> Result<Vec<f64>, String> {
         let meshes = self.scene.meshes.iter().map(|placed| OccluderMesh {
             casts: placed.casts,
             ..OccluderMesh::new(&placed.mesh.positions, &placed.mesh.triangles, placed.world_from_object)
         });
         let occluders = Occluders::new(&meshes.collect::<Vec<_>>()).map_err(text_of)?;
         let receivers: Vec<Receiver> = self.receivers().copied().collect();
-        let options = TraceOptions { target_error: TRUTH_ERROR, ..TraceOptions::default() };
         let shape = LightShape::of(light).map_err(text_of)?;
-        let traced = trace(&occluders, &shape, &receivers, &options, &|_| ()).map_err(text_of)?;
+        let traced = trace(&occluders, &shape, &receivers, &care.options(), &|_| ()).map_err(text_of)?;
         Ok(traced.iter().map(|visibility| visibility.mean).collect())
     }
 

@@ -3,21 +3,21 @@
 use contrejour_plan::LightKind;
 use contrejour_tests::harness::Outcome;
 
-use super::judged_scene::{JudgedScene, falls_to, plates, rmse, settings};
+use super::judged_scene::{Care, JudgedScene, falls_to, plates, rmse, settings};
 
 /// One plate over a floor, both parallel to the light's disk: there the blockers' mean depth is the blocker's depth, and
 /// percentage-closer filtering over the disk's image is the visible share of the disk.
 pub fn many_samples_are_the_truth() -> Outcome {
     let mut scene = plates(&[("[1.4, 1.2]", "[0.1, 1.6, 0]")])?;
     scene.keep_floor();
-    let truth = scene.truth(scene.light())?;
+    let truth = scene.truth(scene.light(), Care::Fine)?;
     falls_to(0.012, &pcss_errors(&scene, &truth)?)?;
 
     // A truth of a light that is a fifth larger is another one.
     let mut larger = *scene.light();
     let LightKind::Spot { radius, .. } = &mut larger.kind else { return Err("the light is a spot".into()) };
     *radius *= 1.2;
-    let planted = falls_to(0.012, &pcss_errors(&scene, &scene.truth(&larger)?)?);
+    let planted = falls_to(0.012, &pcss_errors(&scene, &scene.truth(&larger, Care::Fine)?)?);
     if planted.is_err() { Ok(()) } else { Err("a larger light passes".into()) }
 }
 
@@ -53,7 +53,7 @@ pub fn small_kernels_are_hard() -> Outcome {
     let mut point = *scene.light();
     let LightKind::Spot { radius, .. } = &mut point.kind else { return Err("the light is a spot".into()) };
     *radius = 0.0;
-    let truth = scene.truth(&point)?;
+    let truth = scene.truth(&point, Care::Fine)?;
     let errors_on_finer_maps: Result<Vec<f64>, String> =
         finer.iter().map(|filter| Ok(rmse(&scene.visibility(filter)?, &truth))).collect();
     falls_to(0.1, &errors_on_finer_maps?)?;
