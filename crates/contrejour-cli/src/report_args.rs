@@ -12,7 +12,8 @@ use crate::values::parse_size;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct ReportArguments {
-    /// Scenes (.toml), meshes and built-in scenes, separated by commas [default: all built-in scenes; with --quick a few]
+    /// Scenes (.toml), meshes and built-in scenes, separated by commas [default: all built-in scenes; with --quick a
+    /// few]
     #[arg(long, value_name = "SCENE,..", value_delimiter = ',')]
     pub scenes: Vec<String>,
 
@@ -20,7 +21,8 @@ pub struct ReportArguments {
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     pub techniques: Vec<String>,
 
-    /// Texels along a side of the shadow map, separated by commas [default: 256,512,1024,2048; with --quick 256,1024]
+    /// Texels along a side of the shadow map, separated by commas [default: 256,512,1024,2048; with --quick
+    /// 256,512,1024]
     #[arg(long, value_name = "N,..", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
     pub sizes: Vec<u32>,
 
@@ -45,7 +47,7 @@ pub struct ReportArguments {
     pub restart: bool,
 
     /// Put the folders of all shards together instead of measuring
-    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["scenes", "techniques", "sizes", "quick", "picture_size", "seed", "shard", "restart"])]
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = MEASURING)]
     pub merge: Vec<PathBuf>,
 
     /// Where everything goes; made where it is missing. The same command again goes on with what is there
@@ -56,6 +58,9 @@ pub struct ReportArguments {
     #[arg(long)]
     pub json: bool,
 }
+
+/// Arguments that make no sense where nothing is measured.
+const MEASURING: [&str; 8] = ["scenes", "techniques", "sizes", "quick", "picture_size", "seed", "shard", "restart"];
 
 const AFTER_HELP: &str = "The last line that is printed is the path of the page.";
 

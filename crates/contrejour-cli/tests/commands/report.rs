@@ -7,7 +7,8 @@ use crate::program::Folder;
 use crate::{Outcome, cpu_trial, gpu_trial};
 
 /// As little as a report can be.
-const TINY: &str = "report --quick --picture-size 64x48 --scenes square,boxes --sizes 32,48 --techniques shadow-map,pcf,smoothies-0.08";
+const TINY: &str = "report --quick --picture-size 64x48 --scenes square,boxes --sizes 32,48 \
+                    --techniques shadow-map,pcf,smoothies-0.08";
 
 pub fn trials() -> Vec<Trial> {
     vec![

@@ -79,14 +79,14 @@ const FAMILIES: &[Family] = &[
         name: "PCSS 8+8",
         technique: "pcss",
         fixed: &[("blocker_samples", 8.0), ("filter_samples", 8.0)],
-        swept: &[sweep("search_max_ndc", &[0.2, 0.1, 0.05, 0.4], 2)],
+        swept: &[sweep("search_max_ndc", &[0.2, 0.05, 0.1, 0.4], 2)],
         depth_bits: BITS_32,
     },
     Family {
         name: "PCSS 16+32",
         technique: "pcss",
         fixed: &[("blocker_samples", 16.0), ("filter_samples", 32.0)],
-        swept: &[sweep("search_max_ndc", &[0.2, 0.1, 0.05, 0.4], 2)],
+        swept: &[sweep("search_max_ndc", &[0.2, 0.05, 0.1, 0.4], 2)],
         depth_bits: BITS_32,
     },
     Family {

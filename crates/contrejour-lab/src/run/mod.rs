@@ -1,8 +1,13 @@
 //! Makes a report: measures every technique on every scene at every map size, and keeps each result at once.
 //!
-//! A **group** is a scene at a map size. Its contestants are on the device together and draw taking turns, frame by frame,
-//! so that what disturbs the machine hits all alike. Then each draws a steady frame, which is compared with the truth, and
-//! frames under a slowly moving light. The truth of a scene is traced once, from the points that its picture shows.
+//! A **group** is a scene at a map size. Its contestants are on the device together and draw taking turns, frame by
+//! frame, so that what disturbs the machine hits all alike. Then each draws a steady frame, which is compared with the
+//! truth, and frames under a slowly moving light. The truth of a scene is traced once, from the points that its picture
+//! shows.
+//!
+//! Compared are the receivers that lie in the light's maps and have the whole light above their plane. Elsewhere truth
+//! and techniques mean different things: what is outside of the maps is lit by definition, and a surface whose plane
+//! cuts the light is partly its own shadow, of which a technique that sees one point of the light knows nothing.
 //!
 //! Everything that is an error figure is the same to the last digit when it is measured again on the same machine.
 //!
@@ -22,8 +27,8 @@
 //!
 //! # On many machines
 //!
-//! `--shard 2/8` measures every eighth group, from the second on, and needs nothing from the other shards. Shards with the
-//! same arguments are put together by `contrejour report --merge DIR.. -o DIR`. Times are those of the machine that
+//! `--shard 2/8` measures every eighth group, from the second on, and needs nothing from the other shards. Shards with
+//! the same arguments are put together by `contrejour report --merge DIR.. -o DIR`. Times are those of the machine that
 //! measured the group, so a comparison within a group is always one of the same machine.
 //!
 //! As an array job of Slurm:

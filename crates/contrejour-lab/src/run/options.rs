@@ -8,7 +8,7 @@ use super::subject::NamedScene;
 use crate::report::{Extent, Header};
 
 /// Map sizes of a quick report. Unit: texels.
-pub const QUICK_SIZES: [u32; 2] = [256, 1024];
+pub const QUICK_SIZES: [u32; 3] = [256, 512, 1024];
 
 /// Map sizes of a full report. Unit: texels.
 pub const FULL_SIZES: [u32; 4] = [256, 512, 1024, 2048];

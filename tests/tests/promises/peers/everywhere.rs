@@ -10,9 +10,9 @@ use super::judged_scene::{Care, JudgedScene, plates, rmse, settings, text_of};
 const SIZE: [u32; 2] = [120, 80];
 const MAP_SIZE: u32 = 512;
 
-/// Techniques whose shadow is missing, in the wrong place, or all over are farther from the truth than no shadow at all,
-/// by which a technique's error is measured; these are near or below half of it.
-const MOST_OF_NO_SHADOW: f64 = 0.72;
+/// The error of drawing no shadow at all is the measure. A shadow that is missing or in the wrong place has about as much;
+/// techniques have at most 0.37 of it here.
+const MOST_OF_NO_SHADOW: f64 = 0.5;
 
 pub fn all_come_near_the_truth() -> Outcome {
     for built_in in BUILT_IN_SCENES {

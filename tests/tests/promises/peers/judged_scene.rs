@@ -152,9 +152,9 @@ pub fn text_of(error: impl std::error::Error) -> String {
     error.to_string()
 }
 
-/// Whether each of the errors is clearly less than the one before, and the last at most `most`.
+/// Whether each of the errors is less than the one before, and the last at most `most`.
 pub fn falls_to(most: f64, errors: &[f64]) -> Result<(), String> {
-    let falls = errors.windows(2).all(|pair| pair[1] < 0.9 * pair[0]);
+    let falls = errors.windows(2).all(|pair| pair[1] < pair[0]);
     // Positive, so that NaN is no success.
     if falls && errors.last().is_some_and(|last| *last <= most) {
         return Ok(());

@@ -22,6 +22,12 @@ pub(super) fn text(report: &Report) -> Markup {
                 }
                 "."
             }
+            dt { "Receivers" }
+            dd {
+                "Compared are pixels of surfaces that receive shadow, lie in the light's maps and have the whole light "
+                "above their plane. On the others truth and techniques mean different things: a technique sees one point "
+                "of the light and calls a side that is averted from it dark, and what is outside of its maps lit."
+            }
             dt { "RMSE, mean, 99 %" }
             dd {
                 "Root mean square, mean and 99th percentile of the absolute difference of visibility (0 dark, 1 lit) "
