@@ -16,7 +16,7 @@ mod overview;
 mod page;
 mod plot;
 #[cfg(test)]
-mod sample;
+pub(crate) mod sample;
 mod settle;
 
 pub use agree::Disagreement;

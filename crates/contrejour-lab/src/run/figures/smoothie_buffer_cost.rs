@@ -17,6 +17,9 @@ const KNOT: Shape = Shape::Knot { radius: 0.95, tube_radius: 0.23, segments: 866
 /// Texels along the map's side.
 const MAP_SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
 
+/// The largest maps take long, and the times are far apart.
+const ROUNDS_MAX: usize = 5;
+
 /// So few receivers that asking them takes no time beside the maps.
 const PICTURE_SIZE: [u32; 2] = [16, 16];
 
@@ -24,7 +27,12 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     let named = NamedScene { name: "knot".to_owned(), scene: LoneMesh::new(&KNOT)?.scene };
     let subject = Subject::new(lab.gpu, &named, PICTURE_SIZE)?;
     let [faces, edges] = subject.faces_and_edges()?;
-    let effort = Effort { timed_rounds: lab.options.effort.timed_rounds.min(9), ..lab.options.effort };
+    let Effort { warm_up_rounds, timed_rounds, .. } = lab.options.effort;
+    let effort = Effort {
+        warm_up_rounds: warm_up_rounds.min(1),
+        timed_rounds: timed_rounds.min(ROUNDS_MAX),
+        ..lab.options.effort
+    };
     let methods = [SHADOW_MAP, THIN];
     let mut series = methods.map(|_| Vec::new());
     for map_size in map_sizes(effort.extent, lab.gpu.facts().max_texture_dimension_2d) {

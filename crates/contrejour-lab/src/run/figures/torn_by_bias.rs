@@ -63,7 +63,7 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
 
 /// The same scene, seen from near the cylinder's foot.
 fn contact(mut scene: Scene) -> Scene {
-    scene.camera.eye = DVec3::new(2.4, 2.0, 2.6);
+    scene.camera.eye = DVec3::new(2.2, 2.4, 2.3);
     scene.camera.target = DVec3::new(0.3, 0.15, -0.05);
     scene.camera.fov_y = 0.45;
     scene

@@ -1,7 +1,10 @@
 //! How many edges a silhouette has, against the number of faces.
 
-use contrejour_scene::orbit;
+use std::f64::consts::PI;
+
+use contrejour_plan::{Light, LightKind};
 use contrejour_scene::shapes::Shape;
+use glam::DVec3;
 
 use super::super::super::error::RunError;
 use super::super::super::lab::Lab;
@@ -17,14 +20,13 @@ const MCGUIRE: PowerLaw = PowerLaw { factor: 0.7, exponent: 0.8 };
 const FACES: [u32; 7] = [1000, 3000, 10_000, 30_000, 100_000, 300_000, 1_000_000];
 
 /// What the built-in scenes are made of.
-const SHAPES: [Shape; 7] = [
+const SHAPES: [Shape; 6] = [
     Shape::Box { size: [1.0, 1.0, 1.0] },
     Shape::Cylinder { radius: 0.4, height: 2.0, segments: 128 },
     Shape::Sphere { radius: 0.5, segments: 64 },
     Shape::Fence { size: [3.9, 1.5, 0.05], columns: 26, rows: 10, bar: 0.04 },
     Shape::Knot { radius: 0.95, tube_radius: 0.23, segments: 400, sides: 48 },
     Shape::Elephant { height: 2.0, segments: 48 },
-    Shape::Elephant { height: 2.0, segments: 72 },
 ];
 
 /// Lights around a mesh whose silhouettes are counted.
@@ -61,10 +63,23 @@ pub(in super::super) fn make(lab: &Lab) -> Result<Figure, RunError> {
 fn point(mesh: &LoneMesh) -> Result<[f64; 2], RunError> {
     let mut edges = 0.0;
     for step in 0..LIGHTS {
-        let frame = MirrorFrame::new(mesh, &orbit(&mesh.scene.light, step, LIGHTS))?;
+        let frame = MirrorFrame::new(mesh, &on_sphere(&mesh.scene.light, step))?;
         edges += f64::from(frame.run().counters.silhouette_edges);
     }
     Ok([mesh.faces(), edges / f64::from(LIGHTS)])
+}
+
+/// The light moved to one of [`LIGHTS`] points spread evenly on the sphere around its target: a spiral of golden angles
+/// (Vogel 1979) from pole to pole.
+fn on_sphere(light: &Light, step: u32) -> Light {
+    let height = 1.0 - f64::from(2 * step + 1) / f64::from(LIGHTS);
+    let (sin, cos) = (f64::from(step) * PI * (3.0 - 5.0_f64.sqrt())).sin_cos();
+    let radius = (1.0 - height * height).sqrt();
+    let mut moved = *light;
+    if let LightKind::Spot { position, target, .. } = &mut moved.kind {
+        *position = *target + position.distance(*target) * DVec3::new(radius * cos, height, radius * sin);
+    }
+    moved
 }
 
 /// How the counts grow, and how they lie to the trend.
@@ -88,6 +103,22 @@ mod tests {
         let [faces, edges] = point(&LoneMesh::new(&SHAPES[0]).expect("a box")).expect("a point");
         assert_eq!(faces, 12.0);
         assert!((4.0..=6.0).contains(&edges), "{edges}");
+    }
+
+    #[test]
+    fn lights_are_all_around_and_as_far_as_before() {
+        let torus = LoneMesh::torus(1000).expect("a torus");
+        let of = |light: &Light| match light.kind {
+            LightKind::Spot { position, target, .. } => position - target,
+            LightKind::Directional { towards_light, .. } => towards_light,
+        };
+        let distance = of(&torus.scene.light).length();
+        let offsets: Vec<DVec3> = (0..LIGHTS).map(|step| of(&on_sphere(&torus.scene.light, step))).collect();
+        assert!(offsets.iter().all(|offset| (offset.length() / distance - 1.0).abs() < 1e-9));
+        // Their middle is the target; that of lights on one side would not be.
+        let middle = |offsets: &[DVec3]| offsets.iter().sum::<DVec3>().length() / (offsets.len() as f64 * distance);
+        assert!(middle(&offsets) < 0.1, "{}", middle(&offsets));
+        assert!(middle(&offsets[..4]) > 0.3);
     }
 
     #[test]
