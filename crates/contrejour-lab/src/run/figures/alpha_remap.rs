@@ -17,7 +17,7 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
         map_size: MAP_SIZE,
         ..*sight.shadow()
     };
-    let named = [("with the remap", with(AlphaRemap::Contact)), ("without it", with(AlphaRemap::Off))];
+    let named = [("remapped", with(AlphaRemap::Contact)), ("not remapped", with(AlphaRemap::Off))];
     let pictures = beside_truth(lab, "figure-remap", &sight, &named)?;
     let caption = format!(
         "Smoothies from the light's size at {MAP_SIZE} texels with alpha remapped by the depths of blocker and receiver, \

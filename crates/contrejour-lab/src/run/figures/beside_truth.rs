@@ -5,8 +5,7 @@ use contrejour_plan::ShadowSettings;
 use super::super::error::RunError;
 use super::super::lab::Lab;
 use super::sight::Sight;
-use crate::metrics::UmbraArea;
-use crate::metrics::umbra_area;
+use crate::metrics::{UmbraArea, umbra_area};
 use crate::report::{GridRow, PictureGrid};
 
 /// Pictures of a scene, and figures to tell.
@@ -34,9 +33,13 @@ pub(super) fn beside_truth(
         let umbra = umbra.ok_or_else(|| RunError::NothingToCompare { scene: figure.to_owned() })?;
         errors.push((sight.rmse(&visibility)?, umbra));
         let pictures = [
-            keep(&format!("{number}"), &format!("shaded with {label}"), sight.shaded(&visibility)?)?,
-            keep(&format!("{number}-grey"), &format!("visibility with {label}"), sight.grey(&visibility)?)?,
-            keep(&format!("{number}-difference"), &format!("difference of {label}"), sight.difference(&visibility)?)?,
+            keep(&format!("{number}"), &format!("shaded: {label}"), sight.shaded(&visibility)?)?,
+            keep(&format!("{number}-grey"), &format!("visibility: {label}"), sight.grey(&visibility)?)?,
+            keep(
+                &format!("{number}-difference"),
+                &format!("difference from the truth: {label}"),
+                sight.difference(&visibility)?,
+            )?,
         ];
         let cells = [truth.clone()].into_iter().chain(pictures).map(Some).collect();
         rows.push(GridRow { label: (*label).to_owned(), cells });

@@ -31,8 +31,8 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     let series = umbras(&under);
     let caption = format!(
         "Share of the receivers' pixels in the umbra (visibility of at most {UMBRA_UP_TO}) on the cylinder's plane, while \
-         the radius of the light's disk grows, at {MAP_SIZE} texels. Smoothies only lie outside the hard shadow, as Chan \
-         and Durand (2003) say of them. {}",
+         the radius of the light's disk grows, at {MAP_SIZE} texels. Smoothies lie outside the hard shadow (Chan and Durand \
+         2003), so they can't make the umbra smaller. {}",
         told(&series),
     );
     let series = LABELS.iter().zip(series).map(|(&label, points)| Series {

@@ -63,7 +63,7 @@ fn told(judged: &[Judged]) -> String {
         let best = in_scene(scene).min_by(|a, b| a.rmse.total_cmp(&b.rmse))?;
         let worst = in_scene(scene).max_by(|a, b| a.rmse.total_cmp(&b.rmse))?;
         let one = |one: &Judged| format!("{} at {} texels (RMSE {:.3})", one.method, one.map_size, one.rmse);
-        Some(format!("On the {scene} the nearest to the truth is {}, the farthest {}.", one(best), one(worst)))
+        Some(format!("On the {scene} the nearest to the truth is: {}; the farthest: {}.", one(best), one(worst)))
     });
     sentences.collect::<Vec<_>>().join(" ")
 }
@@ -82,9 +82,9 @@ mod tests {
         };
         assert_eq!(
             judged([0.25, 0.125]),
-            "On the fence the nearest to the truth is smoothies, t = 0.02 at 256 texels (RMSE 0.125), the farthest shadow \
+            "On the fence the nearest to the truth is: smoothies, t = 0.02 at 256 texels (RMSE 0.125); the farthest: shadow \
              map at 256 texels (RMSE 0.250)."
         );
-        assert!(judged([0.125, 0.25]).contains("truth is shadow map"));
+        assert!(judged([0.125, 0.25]).contains("truth is: shadow map"));
     }
 }

@@ -40,8 +40,12 @@ const MAKERS: [Maker; 10] = [
     Maker { name: "own-shadow", make: own_shadow::make },
 ];
 
-/// All figures: those of an earlier run as they are, the others made and kept.
+/// All figures: those of an earlier run as they are, the others made and kept. A report of chosen techniques has none,
+/// for the papers compare techniques of their own.
 pub(super) fn all(lab: &Lab) -> Result<Vec<Figure>, RunError> {
+    if !lab.options.techniques.is_empty() {
+        return Ok(Vec::new());
+    }
     let make = |maker: &Maker| {
         if let Some(figure) = lab.folder.figure(maker.name)? {
             return Ok(figure);

@@ -27,9 +27,7 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
 /// Error and umbra of one kind of smoothies.
 pub(super) fn told(label: &str, rmse: f64, umbra: &UmbraArea) -> String {
     let [too_large, too_small] = [umbra.too_large(), umbra.too_small()].map(|share| 100.0 * share);
-    format!(
-        "With {label} RMSE is {rmse:.3}; {too_large:.1} % of the pixels are wrongly umbra and {too_small:.1} % wrongly not."
-    )
+    format!("With {label}: RMSE {rmse:.3}, {too_large:.1} % of the pixels wrongly umbra, {too_small:.1} % wrongly not.")
 }
 
 #[cfg(test)]
@@ -41,7 +39,7 @@ mod tests {
         let umbra = UmbraArea { pixels: 1000, too_large_pixels: 15, too_small_pixels: 4 };
         assert_eq!(
             told("smoothies", 0.125, &umbra),
-            "With smoothies RMSE is 0.125; 1.5 % of the pixels are wrongly umbra and 0.4 % wrongly not."
+            "With smoothies: RMSE 0.125, 1.5 % of the pixels wrongly umbra, 0.4 % wrongly not."
         );
         let exchanged = UmbraArea { too_large_pixels: 4, too_small_pixels: 15, ..umbra };
         assert_ne!(told("smoothies", 0.125, &exchanged), told("smoothies", 0.125, &umbra));

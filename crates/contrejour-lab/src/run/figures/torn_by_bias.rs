@@ -14,7 +14,7 @@ use crate::report::{Body, Figure, GridRow, PictureGrid};
 const MAP_SIZE: u32 = 512;
 
 /// Constant bias in texels: what is usual, and ever more.
-const BIASES: [f32; 3] = [DepthBias::DEFAULT.constant_texels, 8.0, 32.0];
+const BIASES: [f32; 3] = [DepthBias::DEFAULT.constant_texels, 16.0, 64.0];
 
 /// What a bias does.
 struct Torn {
@@ -52,8 +52,8 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     }
     let caption = format!(
         "Where the cylinder stands on the plane, with smoothies from the light's size at {MAP_SIZE} texels and a growing \
-         constant bias: Chan and Durand (2003) name the bias as what their method inherits from shadow maps. The hard \
-         shadow sets in late, and the soft edge is torn from it. {}",
+         constant bias, which they inherit from shadow maps (Chan and Durand 2003). With too much of it the hard shadow \
+         sets in late, and light comes between it and the soft edge. {}",
         told(&torn),
     );
     let columns = ["picture", "difference from the truth"].map(str::to_owned).to_vec();

@@ -60,11 +60,9 @@ mod tests {
     }
 
     #[test]
-    fn one_turned_face_is_told() {
+    fn one_wrong_corner_is_told() {
         let [map, twins] = both_ways(|faces| {
             let mut faces = faces.to_vec();
-            // A face that is edge-on to nothing: turning it changes its sign and its orientation, so that its edges
-            // stay; taking another corner does not.
             faces[7].c = faces[900].a;
             faces
         });
