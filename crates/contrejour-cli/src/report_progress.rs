@@ -29,7 +29,7 @@ impl Progress {
             }
             Event::Resumed { scene, map_size } => self.tell(&format!("{scene} at {map_size} is there already")),
             Event::OutOfTime { scene, map_size } => {
-                self.tell(&format!("no time for {scene} at {map_size}; the same command again goes on with it"))
+                self.tell(&format!("no time for {scene} at {map_size}; the same command again goes on with it"));
             }
             Event::NotOnDevice { label } => self.tell(&format!("this device can't do {label}")),
             Event::TruthBegins { scene, receivers } => self.begin(format!("{scene}: truth"), receivers),
