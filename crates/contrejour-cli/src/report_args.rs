@@ -17,7 +17,7 @@ pub struct ReportArguments {
     #[arg(long, value_name = "SCENE,..", value_delimiter = ',')]
     pub scenes: Vec<String>,
 
-    /// Techniques and families, separated by commas [default: all]
+    /// Techniques and families, separated by commas [default: all, and the papers' figures]
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     pub techniques: Vec<String>,
 

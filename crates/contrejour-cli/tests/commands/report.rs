@@ -15,6 +15,7 @@ pub fn trials() -> Vec<Trial> {
         cpu_trial("report::what_cannot_be_measured_is_refused", nonsense_is_refused),
         gpu_trial("report::shards_merge_into_what_one_run_finds", shards_merge),
         gpu_trial("report::goes_on_and_refuses_another_seed", goes_on),
+        gpu_trial("report::redoes_the_figures_of_the_papers", figures_are_made),
     ]
 }
 
@@ -83,6 +84,22 @@ fn goes_on() -> Outcome {
     }
     let again = folder.run(&format!("{tiny} --sizes 32 --seed 9 --restart --json")).json()?;
     if again["groups"] == 1 { Ok(()) } else { Err(again.to_string()) }
+}
+
+/// Every figure is made once and is on the page; a report of chosen techniques has none.
+fn figures_are_made() -> Outcome {
+    let folder = Folder::new();
+    let tiny = "report --quick --picture-size 64x48 --scenes square --sizes 32";
+    let told = folder.run(&format!("{tiny} -o out --json")).json()?;
+    if told["figures"] != 10 {
+        return Err(told.to_string());
+    }
+    let page = folder.read("out/index.html")?;
+    if let Some(figure) = read(&folder, "out")?.figures.iter().find(|figure| !page.contains(&figure.title)) {
+        return Err(format!("the page lacks {}", figure.title));
+    }
+    let told = folder.run(&format!("{tiny} --techniques shadow-map -o chosen --json")).json()?;
+    if told["figures"] == 0 { Ok(()) } else { Err(told.to_string()) }
 }
 
 fn read(folder: &Folder, name: &str) -> Result<Report, String> {

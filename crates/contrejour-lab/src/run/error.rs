@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use contrejour_mesh::TopologyError;
 use contrejour_plan::LightError;
 use contrejour_render::{ComposeError, DrawError, NewContestantError, NewJudgeError, ReadError, SaveError};
+use contrejour_scene::SceneError;
+use contrejour_scene::shapes::ShapeError;
 use contrejour_trace::{OccluderError, TraceError};
 
 use super::contestants::EntrantsError;
@@ -72,6 +74,18 @@ pub enum RunError {
         /// The contestant.
         label: String,
     },
+    /// A figure names a scene that does not come with contrejour.
+    #[error("a figure needs the built-in scene {name}, which is not there; name another in the figure's file")]
+    NoScene {
+        /// Its name.
+        name: &'static str,
+    },
+    /// A scene of a figure is none.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A shape of a figure cannot be generated.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
     /// A mesh has no topology.
     #[error(transparent)]
     Topology(#[from] TopologyError),

@@ -23,7 +23,8 @@ pub struct RunOptions {
     pub scenes: Vec<NamedScene>,
     /// Texels along the shadow map's side. Range: at least one, each once.
     pub sizes: Vec<u32>,
-    /// Names of techniques and families; all where it is empty.
+    /// Names of techniques and families; all where it is empty. With names the report has no figures of the papers, which
+    /// compare techniques of their own.
     pub techniques: Vec<String>,
     /// How much is measured. [`Effort::of`] has what reports are made with.
     pub effort: Effort,

@@ -1,0 +1,47 @@
+//! The techniques that the papers' figures compare.
+
+use contrejour_plan::{ShadowSettings, SmoothieSettings, SmoothieWidth, Technique};
+
+/// A technique and what a figure calls it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Method {
+    /// Its name in tables, legends and captions.
+    pub label: &'static str,
+    /// As a part of file names.
+    pub file: &'static str,
+    technique: Technique,
+}
+
+/// What everything is compared with.
+pub(super) const SHADOW_MAP: Method =
+    Method { label: "shadow map", file: "shadow-map", technique: Technique::ShadowMap };
+
+/// The filter that Chan and Durand (2003) compare with.
+pub(super) const BICUBIC: Method =
+    Method { label: "bicubic filter", file: "bicubic", technique: Technique::BicubicPcf };
+
+/// The thinner of the two widths that Chan and Durand (2003) show.
+pub(super) const THIN: Method =
+    Method { label: "smoothies, t = 0.02", file: "thin", technique: Technique::Smoothies(of_width(0.02)) };
+
+/// The thicker one.
+pub(super) const THICK: Method =
+    Method { label: "smoothies, t = 0.08", file: "thick", technique: Technique::Smoothies(of_width(0.08)) };
+
+/// Smoothies whose rim is where the true outer penumbra ends.
+pub(super) const BY_LIGHT_SIZE: Method = Method {
+    label: "smoothies, light's size",
+    file: "by-light-size",
+    technique: Technique::Smoothies(SmoothieSettings::DEFAULT),
+};
+
+const fn of_width(width_ndc: f32) -> SmoothieSettings {
+    SmoothieSettings { width: SmoothieWidth::Ndc(width_ndc), ..SmoothieSettings::DEFAULT }
+}
+
+impl Method {
+    /// A scene's settings with this technique.
+    pub fn settings(&self, scene: &ShadowSettings, map_size: u32) -> ShadowSettings {
+        ShadowSettings { technique: self.technique, map_size, ..*scene }
+    }
+}

@@ -1,0 +1,56 @@
+//! One generated mesh under a light, alone.
+
+use std::sync::Arc;
+
+use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh};
+use contrejour_scene::shapes::Shape;
+use contrejour_scene::{MeshSource, Scene};
+
+use super::super::super::error::RunError;
+
+/// A mesh, its topology and the scene around it.
+pub(in super::super) struct LoneMesh {
+    /// A scene with this mesh and no floor.
+    pub scene: Scene,
+    pub topology: Arc<TopologyAwareMesh>,
+}
+
+impl LoneMesh {
+    pub fn new(shape: &Shape) -> Result<Self, RunError> {
+        let mesh = shape.generate()?;
+        let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())?;
+        let mut scene = Scene::around(MeshFile::single(mesh, Vec::new()));
+        scene.meshes.retain(|placed| placed.source == MeshSource::Given);
+        Ok(Self { scene, topology: Arc::new(topology) })
+    }
+
+    /// A torus of about that many faces, whose triangles are about as long as they are wide.
+    pub fn torus(faces: u32) -> Result<Self, RunError> {
+        let sides = (f64::from(faces) / 4.0).sqrt().round() as u32;
+        Self::new(&Shape::Torus { radius: 1.0, tube_radius: 0.4, segments: 2 * sides, sides })
+    }
+
+    pub fn faces(&self) -> f64 {
+        self.topology.faces.len() as f64
+    }
+
+    /// Edges that can be in a silhouette.
+    pub fn edges(&self) -> f64 {
+        f64::from(self.topology.candidate_edge_count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_torus_is_closed_and_has_about_the_faces_asked_for() {
+        for faces in [1000, 100_000] {
+            let torus = LoneMesh::torus(faces).expect("a torus");
+            assert!((torus.faces() / f64::from(faces) - 1.0).abs() < 0.05, "{}", torus.faces());
+            assert!(torus.topology.report.closed);
+            assert_eq!(torus.scene.meshes.len(), 1);
+        }
+    }
+}
