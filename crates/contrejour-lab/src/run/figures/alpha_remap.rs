@@ -20,8 +20,8 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     let named = [("remapped", with(AlphaRemap::Contact)), ("not remapped", with(AlphaRemap::Off))];
     let pictures = beside_truth(lab, "figure-remap", &sight, &named)?;
     let caption = format!(
-        "Smoothies from the light's size at {MAP_SIZE} texels with alpha remapped by the depths of blocker and receiver, \
-         alpha / (1 - b / r) of Chan and Durand (2003), and with alpha as it was drawn. {}",
+        "Smoothies from the light's size at {MAP_SIZE} texels with alpha remapped by the depths of blocker and \
+         receiver, alpha / (1 - b / r) of Chan and Durand (2003), and with alpha as it was drawn. {}",
         told(pictures.errors[0].0, pictures.errors[1].0),
     );
     let body = Body::Pictures(pictures.grid);

@@ -29,9 +29,9 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     let clock = if lab.gpu.is_software() { "the clock on the wall, around a submission" } else { "device timestamps" };
     let caption = format!(
         "The cylinder on a plane, after the table of times of Chan and Durand (2003). Their time is that of a whole \
-         picture; ours, by {clock}, is that of the shadow work and of asking all receivers, so the ratios of the methods \
-         can be compared and the milliseconds cannot. Ratios are to the shadow map of the same size; the range holds \
-         the 10th to the 90th percentile of both times. {}",
+         picture; ours, by {clock}, is that of the shadow work and of asking all receivers, so the ratios of the \
+         methods can be compared and the milliseconds cannot. Ratios are to the shadow map of the same size; the \
+         range holds the 10th to the 90th percentile of both times. {}",
         largest.map_or_else(String::new, |(map_size, theirs, ours)| told(map_size, theirs, ours)),
     );
     let columns = ["map, method", "2003, ms", "2003, ratio", "here, ms", "here, ratio", "range"];
@@ -71,8 +71,8 @@ fn told(map_size: u32, theirs: [f64; 4], ours: [Timing; 4]) -> String {
     let [then, now] = [ratios(theirs), ratios(ours.map(|timing| timing.median_ms))];
     let order = if now[1] > now[3] { "still the dearer of the two" } else { "now the cheaper of the two" };
     format!(
-        "At {map_size} texels the bicubic filter took {:.1} times as long as the shadow map in 2003 and takes {:.1} times \
-         as long here, thick smoothies {:.1} times and {:.1} times; so the filter is {order}.",
+        "At {map_size} texels the bicubic filter took {:.1} times as long as the shadow map in 2003 and takes {:.1} \
+         times as long here, thick smoothies {:.1} times and {:.1} times; so the filter is {order}.",
         then[1], now[1], then[3], now[3],
     )
 }
@@ -101,7 +101,10 @@ mod tests {
     #[test]
     fn what_is_told_follows_the_times() {
         let told = |medians| told(1024, TIMES_OF_2003[1].1, timings(medians));
-        assert!(told([2.0, 3.0, 4.0, 5.0]).ends_with("takes 1.5 times as long here, thick smoothies 1.4 times and 2.5 times; so the filter is now the cheaper of the two."));
+        assert!(told([2.0, 3.0, 4.0, 5.0]).ends_with(
+            "takes 1.5 times as long here, thick smoothies 1.4 times and \
+            2.5 times; so the filter is now the cheaper of the two."
+        ));
         assert!(told([2.0, 9.0, 4.0, 5.0]).contains("still the dearer"));
         assert!(told([0.0; 4]).contains("too fast"));
     }

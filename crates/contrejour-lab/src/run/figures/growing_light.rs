@@ -30,9 +30,9 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     let under = RADII.into_iter().step_by(step).map(|radius| under(lab, radius)).collect::<Result<Vec<_>, _>>()?;
     let series = umbras(&under);
     let caption = format!(
-        "Share of the receivers' pixels in the umbra (visibility of at most {UMBRA_UP_TO}) on the cylinder's plane, while \
-         the radius of the light's disk grows, at {MAP_SIZE} texels. Smoothies lie outside the hard shadow (Chan and Durand \
-         2003), so they can't make the umbra smaller. {}",
+        "Share of the receivers' pixels in the umbra (visibility of at most {UMBRA_UP_TO}) on the cylinder's plane, \
+         while the radius of the light's disk grows, at {MAP_SIZE} texels. Smoothies lie outside the hard shadow \
+         (Chan and Durand 2003), so they can't make the umbra smaller. {}",
         told(&series),
     );
     let series = LABELS.iter().zip(series).map(|(&label, points)| Series {

@@ -82,8 +82,8 @@ mod tests {
         };
         assert_eq!(
             judged([0.25, 0.125]),
-            "On the fence the nearest to the truth is: smoothies, t = 0.02 at 256 texels (RMSE 0.125); the farthest: shadow \
-             map at 256 texels (RMSE 0.250)."
+            "On the fence the nearest to the truth is: smoothies, t = 0.02 at 256 texels (RMSE 0.125); the farthest: \
+             shadow map at 256 texels (RMSE 0.250)."
         );
         assert!(judged([0.125, 0.25]).contains("truth is: shadow map"));
     }

@@ -43,9 +43,9 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     }
     let clock = if lab.gpu.is_software() { "clock on the wall, around a submission" } else { "device timestamps" };
     let caption = format!(
-        "A knot of {faces} faces and {edges} edges under a light that moves: the depth-only shadow map alone, and with \
-         everything that smoothies (t = 0.02) need besides it: silhouette, geometry, linear depth and smoothie buffers. \
-         Medians by {clock}. {}",
+        "A knot of {faces} faces and {edges} edges under a light that moves: the depth-only shadow map alone, and \
+         with everything that smoothies (t = 0.02) need besides it: silhouette, geometry, linear depth and smoothie \
+         buffers. Medians by {clock}. {}",
         told(&series),
     );
     let [alone, all] = series;

@@ -51,9 +51,9 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
         rows.push(GridRow { label, cells });
     }
     let caption = format!(
-        "Where the cylinder stands on the plane, with smoothies from the light's size at {MAP_SIZE} texels and a growing \
-         constant bias, which they inherit from shadow maps (Chan and Durand 2003). With too much of it the hard shadow \
-         sets in late, and light comes between it and the soft edge. {}",
+        "Where the cylinder stands on the plane, with smoothies from the light's size at {MAP_SIZE} texels and a \
+         growing constant bias, which they inherit from shadow maps (Chan and Durand 2003). With too much of it the \
+         hard shadow sets in late, and light comes between it and the soft edge. {}",
         told(&torn),
     );
     let columns = ["picture", "difference from the truth"].map(str::to_owned).to_vec();

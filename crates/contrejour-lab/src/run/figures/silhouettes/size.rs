@@ -38,9 +38,9 @@ pub(in super::super) fn make(lab: &Lab) -> Result<Figure, RunError> {
         FACES.iter().take(meshes).map(|&faces| point(&LoneMesh::torus(faces)?)).collect::<Result<Vec<_>, _>>()?;
     let shapes = SHAPES.iter().map(|shape| point(&LoneMesh::new(shape)?)).collect::<Result<Vec<_>, _>>()?;
     let caption = format!(
-        "Mean number of silhouette edges over {LIGHTS} lights around a mesh, for tori of ever finer faces and for the \
-         shapes of the built-in scenes, against 0.7 f^0.8, the trend that McGuire (2004, figure 8) found in models made \
-         by people. {}",
+        "Mean number of silhouette edges over {LIGHTS} lights around a mesh, for tori of ever finer faces and for \
+         the shapes of the built-in scenes, against 0.7 f^0.8, the trend that McGuire (2004, figure 8) found in \
+         models made by people. {}",
         told(&tori, &shapes),
     );
     let trend = [&tori, &shapes].into_iter().flatten().map(|&[faces, _]| [faces, MCGUIRE.at(faces)]);

@@ -36,9 +36,9 @@ pub(in super::super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     };
     let caption = format!(
         "Tori of {} to {} edges under a light that moves. The device runs all compute stages: silhouette, quads and \
-         corners, ready to draw; its time is {clock}. The twin does the same on one core of the CPU. The ordered map finds \
-         the silhouette alone: each frame puts every face's edges into a map keyed by their two vertices, as programs do \
-         that keep no topology. Medians of {rounds} frames, taken in turns. {}",
+         corners, ready to draw; its time is {clock}. The twin does the same on one core of the CPU. The ordered map \
+         finds the silhouette alone: each frame puts every face's edges into a map keyed by their two vertices, as \
+         programs do that keep no topology. Medians of {rounds} frames, taken in turns. {}",
         ends(&points[0])[0],
         ends(&points[0])[1],
         told(&points),
@@ -108,8 +108,8 @@ fn told(points: &[Vec<[f64; 2]>; 3]) -> String {
     let exponents = exponents.collect::<Vec<_>>().join(", ");
     let last = points.each_ref().map(|points| points.last().map_or(0.0, |[_, ms]| *ms));
     format!(
-        "Fitted exponents of the number of edges: {exponents}. On the largest torus the ordered map takes {:.1} times as \
-         long as the device and {:.1} times as long as the twin.",
+        "Fitted exponents of the number of edges: {exponents}. On the largest torus the ordered map takes {:.1} \
+         times as long as the device and {:.1} times as long as the twin.",
         last[2] / last[0],
         last[2] / last[1],
     )
@@ -125,8 +125,9 @@ mod tests {
             |exponents: [f64; 3]| exponents.map(|exponent| [10.0, 100.0].map(|x: f64| [x, x.powf(exponent)]).to_vec());
         assert_eq!(
             told(&points([0.5, 1.0, 1.5])),
-            "Fitted exponents of the number of edges: device 0.50, twin on the CPU 1.00, ordered map 1.50. On the largest \
-             torus the ordered map takes 100.0 times as long as the device and 10.0 times as long as the twin."
+            "Fitted exponents of the number of edges: device 0.50, twin on the CPU 1.00, ordered map 1.50. On the \
+             largest torus the ordered map takes 100.0 times as long as the device and 10.0 times as long as the \
+             twin."
         );
         assert!(told(&points([0.5, 1.0, 1.2])).contains("ordered map 1.20"));
     }
