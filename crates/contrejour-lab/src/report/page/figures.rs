@@ -60,5 +60,6 @@ fn picture_grid(grid: &PictureGrid, title: &str, folder: &Path) -> Result<Markup
             }
         });
     }
-    Ok(html! { div.grid { (boxed(title, &[], head, html! { @for row in &rows { (row) } })) } })
+    let columns = format!("--columns: {}", grid.columns.len());
+    Ok(html! { div.grid style=(columns) { (boxed(title, &[], head, html! { @for row in &rows { (row) } })) } })
 }
