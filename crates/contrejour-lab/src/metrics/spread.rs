@@ -5,15 +5,15 @@ use serde::{Deserialize, Serialize};
 use super::MetricError;
 use super::quantile::percentile;
 
-/// Time of one frame's work, from the samples of many frames. Low and high are the 10th and the 90th percentile
-/// (nearest rank, as the median), so a few disturbed frames widen nothing.
+/// Time of one frame's work, from the samples of many frames. Low and high are the 5th and the 95th percentile
+/// (nearest rank, as the median): of up to 19 frames the fastest and the slowest, of more all but the disturbed ones.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
     /// Half of the frames took at most this long.
     pub median_ms: f64,
-    /// A tenth of the frames took at most this long.
+    /// One frame in twenty took at most this long.
     pub low_ms: f64,
-    /// Nine tenths of the frames took at most this long.
+    /// Nineteen frames in twenty took at most this long.
     pub high_ms: f64,
     /// Frames that were measured. Range: 1 or more.
     pub frames: u64,
@@ -43,7 +43,7 @@ impl Timing {
         }
         let mut samples = samples_ms.to_vec();
         let mut percentile = |percent| percentile(&mut samples, percent).ok_or(MetricError::NoSample);
-        let [median_ms, low_ms, high_ms] = [percentile(50)?, percentile(10)?, percentile(90)?];
+        let [median_ms, low_ms, high_ms] = [percentile(50)?, percentile(5)?, percentile(95)?];
         Ok(Self { median_ms, low_ms, high_ms, frames: samples_ms.len() as u64 })
     }
 
@@ -62,10 +62,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_of_ten_frames() {
-        let samples = [9.0, 1.0, 8.0, 2.0, 7.0, 3.0, 6.0, 4.0, 5.0, 1000.0];
+    fn a_disturbed_frame_of_twenty_widens_nothing() {
+        let mut samples: Vec<f64> = (1..=19).rev().map(f64::from).collect();
+        samples.insert(7, 1000.0);
         let timing = Timing::from_samples(&samples).expect("the samples are times");
-        assert_eq!(timing, Timing { median_ms: 5.0, low_ms: 1.0, high_ms: 9.0, frames: 10 });
+        assert_eq!(timing, Timing { median_ms: 10.0, low_ms: 1.0, high_ms: 19.0, frames: 20 });
         let one = Timing::from_samples(&[2.5]).expect("one sample is enough");
         assert_eq!(one, Timing { median_ms: 2.5, low_ms: 2.5, high_ms: 2.5, frames: 1 });
     }

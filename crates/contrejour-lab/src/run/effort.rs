@@ -43,7 +43,7 @@ impl Effort {
         motion_steps: 3,
         motion_samples: 16,
         warm_up_rounds: 2,
-        timed_rounds: 15,
+        timed_rounds: 19,
     };
 
     /// For a report that is kept.

@@ -56,15 +56,15 @@ pub(super) fn text(report: &Report) -> Markup {
             }
             dt { "Time" }
             dd {
-                "Median over frames after warm-up with 10th and 90th percentile. Contestants of one scene and map size "
+                "Median over frames after warm-up with 5th and 95th percentile. Contestants of one scene and map size "
                 "take turns frame by frame, so that drift hits all alike. Device: timestamps around the whole shadow "
                 "work. Wall-clock: from submission to completion. Record: CPU time to prepare and record. Where a "
                 "device has no timestamps that cover all of its work, wall-clock stands in."
             }
             dt { "×" }
             dd {
-                "Multiple of the plain shadow map in the same table. Its spread divides low by high and high by low, "
-                "so two runs agree within it."
+                "Multiple of the plain shadow map in the same table. Its spread divides low by high and high by low: "
+                "two runs on a machine that does nothing else agree within it."
             }
         }
     }

@@ -15,7 +15,7 @@ pub(super) fn tables(report: &Report) -> Markup {
             p.lead {
                 "All that were measured, with their parameters. " span.mark { "●" } " stands for its family, "
                 span.mark { "◯" } " is on the Pareto front of its scene and size. "
-                "Spreads are the 10th and the 90th percentile."
+                "Spreads are the 5th and the 95th percentile."
             }
         }
         @for scene in report.scenes() {

@@ -31,7 +31,7 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
         "The cylinder on a plane, after the table of times of Chan and Durand (2003). Their time is that of a whole \
          picture; ours, by {clock}, is that of the shadow work and of asking all receivers, so the ratios of the \
          methods can be compared and the milliseconds cannot. Ratios are to the shadow map of the same size; the \
-         range holds the 10th to the 90th percentile of both times. {}",
+         range holds the 5th to the 95th percentile of both times. {}",
         largest.map_or_else(String::new, |(map_size, theirs, ours)| told(map_size, theirs, ours)),
     );
     let columns = ["map, method", "2003, ms", "2003, ratio", "here, ms", "here, ratio", "range"];
