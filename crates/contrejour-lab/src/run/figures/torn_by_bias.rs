@@ -73,7 +73,8 @@ fn contact(mut scene: Scene) -> Scene {
 fn told(torn: &[Torn]) -> String {
     let one = |Torn { constant_texels, rmse, umbra }: &Torn| {
         format!(
-            "with {constant_texels} texels RMSE {rmse:.3}, and {:.2} % of the pixels are lit though truly in the umbra",
+            "with {constant_texels} texels RMSE {rmse:.3}, and {:.2} % of the pixels are not dark though truly in the \
+             umbra",
             100.0 * umbra.too_small(),
         )
     };
@@ -92,7 +93,10 @@ mod tests {
             let umbra = UmbraArea { pixels: 200, too_large_pixels: 0, too_small_pixels };
             told(&[Torn { constant_texels: 0.5, rmse: 0.125, umbra }])
         };
-        assert_eq!(told(3), "With 0.5 texels RMSE 0.125, and 1.50 % of the pixels are lit though truly in the umbra.");
+        assert_eq!(
+            told(3),
+            "With 0.5 texels RMSE 0.125, and 1.50 % of the pixels are not dark though truly in the umbra."
+        );
         assert_ne!(told(4), told(3));
     }
 }
