@@ -67,9 +67,13 @@ impl Occluders {
     /// to faces and to intersections with them is some hundred times less.
     const LIFT: f64 = 1.0 / (1_u64 << 44) as f64;
 
-    /// Part of the scene's largest coordinate by which a receiver may be off its face: `f32` and interpolation
+    /// Part of the scene's largest coordinate by which a receiver may be off its face's plane: `f32` and interpolation
     /// do less, a wrong face number or transform usually does more.
     const MOST_OFF_FACE: f64 = 1.0 / 1024.0;
+
+    /// Part of the scene's largest coordinate by which a receiver may lie past its face's edge: raster passes move
+    /// corners by a share of a pixel, which on a face seen from its edge is a long way.
+    const MOST_PAST_EDGE: f64 = 1.0 / 16.0;
 
     /// The faces of the meshes. A face without area blocks nothing; [`faces_without_area`](Self::faces_without_area)
     /// counts them.
@@ -158,9 +162,12 @@ impl Occluders {
         let [position, seen_from] = [position, seen_from].map(|point| self.space.point_from_world(point));
         let lift = Self::LIFT * self.space.largest_coordinate;
         let point = SurfacePoint::above_face(corners, position, seen_from, lift);
-        let (distance, allowed) =
-            (point.position.distance(position), Self::MOST_OFF_FACE * self.space.largest_coordinate);
-        if distance > allowed {
+        let offset = position - point.position;
+        let off_plane = offset.dot(point.normal).abs();
+        let allowed = Self::MOST_OFF_FACE * self.space.largest_coordinate;
+        let past_edge = offset.reject_from_normalized(point.normal).length();
+        if off_plane > allowed || past_edge > Self::MOST_PAST_EDGE * self.space.largest_coordinate {
+            let distance = offset.length();
             let [distance, allowed] = [distance, allowed].map(|length| self.space.world_from_length(length));
             return Err(TraceError::OffFace { receiver: index, face, distance, allowed });
         }

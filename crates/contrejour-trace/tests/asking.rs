@@ -182,6 +182,16 @@ fn bad_receivers_have_their_errors() {
     assert!(matches!(error(other), Some(TraceError::OffFace { receiver: 1, face: 1, distance, .. }) if distance > 1.9));
 }
 
+/// A raster pass that sees a face from its edge may show a point a little past it.
+#[test]
+fn receivers_may_lie_a_little_past_their_edge() {
+    let at = |past: f64| ask(&LAMP, &[on_floor(0.0, -9.0 - past)]);
+    assert!(at(0.3).is_ok());
+    assert!(matches!(at(2.0), Err(TraceError::OffFace { .. })));
+    let above = Receiver { position: DVec3::Y * 0.3, ..on_floor(0.0, 0.0) };
+    assert!(matches!(ask(&LAMP, &[above]), Err(TraceError::OffFace { .. })));
+}
+
 #[test]
 fn bad_lights_and_options_have_their_errors() {
     let light = LightShape::Sphere { center: DVec3::Y, radius: -1.0 };
