@@ -64,7 +64,11 @@ pub fn summary(measured: &Measurements, written: &Written) -> String {
     let edges = measured.silhouette_edges;
     let mut lines = vec![
         format!("device: {}", measured.device),
-        format!("edges: {}, in the silhouette: {} to {}", measured.edges, edges.min, edges.max),
+        // Techniques without smoothies look for no silhouette.
+        match edges.max {
+            0 => format!("edges: {}", measured.edges),
+            _ => format!("edges: {}, in the silhouette: {} to {}", measured.edges, edges.min, edges.max),
+        },
     ];
     if written.pictures.is_empty() {
         lines.push(format!("frames: {}, none read back", measured.frames));

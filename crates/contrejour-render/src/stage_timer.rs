@@ -66,13 +66,13 @@ impl StageTimer {
     /// Takes the times that have arrived.
     pub fn collect(&mut self) {
         while let Some(frame) = self.take_frame() {
-            add_frame(&mut self.stages, frame);
+            add_frame(&mut self.stages, frame.passes);
         }
     }
 
     /// Takes the times of the oldest frame that have arrived, in the order in which its stages ran.
-    pub fn take_frame(&mut self) -> Option<Vec<PassTime>> {
-        self.profiler.process_finished_frame(self.timestamp_period).map(|passes| frame_times(&passes))
+    pub fn take_frame(&mut self) -> Option<FrameTime> {
+        self.profiler.process_finished_frame(self.timestamp_period).map(|passes| FrameTime::of(&passes))
     }
 
     /// The stages in the order in which they first ran.
@@ -81,18 +81,32 @@ impl StageTimer {
     }
 }
 
-/// A frame's passes; passes of the same name are one stage, and their times are added.
-fn frame_times(passes: &[GpuTimerQueryResult]) -> Vec<PassTime> {
-    let mut frame: Vec<PassTime> = Vec::new();
-    for pass in passes {
-        let Some(time) = &pass.time else { continue };
-        let gpu_ms = 1000.0 * (time.end - time.start);
-        match frame.iter_mut().find(|stage| stage.name == pass.label) {
-            Some(stage) => stage.gpu_ms += gpu_ms,
-            None => frame.push(PassTime { name: pass.label.clone(), gpu_ms }),
+/// Times of a frame on the device.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct FrameTime {
+    /// From the begin of the first pass to the end of the last, what lies between them included; `None` without
+    /// timestamps. Unit: milliseconds.
+    pub whole_ms: Option<f64>,
+    /// Its passes; those of the same name are one stage, and their times are added.
+    pub passes: Vec<PassTime>,
+}
+
+impl FrameTime {
+    fn of(timed: &[GpuTimerQueryResult]) -> Self {
+        let mut passes: Vec<PassTime> = Vec::new();
+        let mut span: Option<(f64, f64)> = None;
+        for pass in timed {
+            let Some(time) = &pass.time else { continue };
+            let (begin, end) = span.unwrap_or((time.start, time.end));
+            span = Some((begin.min(time.start), end.max(time.end)));
+            let gpu_ms = 1000.0 * (time.end - time.start);
+            match passes.iter_mut().find(|stage| stage.name == pass.label) {
+                Some(stage) => stage.gpu_ms += gpu_ms,
+                None => passes.push(PassTime { name: pass.label.clone(), gpu_ms }),
+            }
         }
+        Self { whole_ms: span.map(|(begin, end)| 1000.0 * (end - begin)), passes }
     }
-    frame
 }
 
 fn add_frame(stages: &mut Vec<TimedStage>, frame: Vec<PassTime>) {
@@ -141,8 +155,10 @@ mod tests {
     #[test]
     fn passes_of_one_name_are_one_stage() {
         let mut stages = Vec::new();
-        add_frame(&mut stages, frame_times(&[pass("b", 0.0, 1.0), pass("a", 1.0, 1.5), pass("b", 2.0, 2.25)]));
-        add_frame(&mut stages, frame_times(&[pass("a", 3.0, 3.5)]));
+        let frame = FrameTime::of(&[pass("b", 0.0, 1.0), pass("a", 1.0, 1.5), pass("b", 2.0, 2.25)]);
+        assert_eq!(frame.whole_ms, Some(2250.0), "with the half second in which nothing ran");
+        add_frame(&mut stages, frame.passes);
+        add_frame(&mut stages, FrameTime::of(&[pass("a", 3.0, 3.5)]).passes);
         assert_eq!(
             stages,
             [
@@ -154,6 +170,7 @@ mod tests {
 
     #[test]
     fn a_pass_without_timestamps_counts_for_nothing() {
-        assert!(frame_times(&[GpuTimerQueryResult { time: None, ..pass("a", 0.0, 1.0) }]).is_empty());
+        let untimed = GpuTimerQueryResult { time: None, ..pass("a", 0.0, 1.0) };
+        assert_eq!(FrameTime::of(&[untimed]), FrameTime::default());
     }
 }

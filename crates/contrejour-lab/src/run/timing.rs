@@ -52,9 +52,7 @@ impl Samples {
     fn add(&mut self, frame: FrameCost) {
         self.wall_ms.push(frame.wall_ms);
         self.record_ms.push(frame.cpu_ms);
-        if !frame.passes.is_empty() {
-            self.device_ms.push(frame.passes.iter().map(|pass| pass.gpu_ms).sum());
-        }
+        self.device_ms.extend(frame.gpu_ms);
         for pass in frame.passes {
             match self.passes_ms.iter_mut().find(|(name, _)| *name == pass.name) {
                 Some((_, times)) => times.push(pass.gpu_ms),
@@ -88,10 +86,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_frame_is_the_sum_of_its_passes() {
+    fn a_frame_has_a_time_of_its_own_beside_its_passes() {
         let frame = |times: [f64; 2]| FrameCost {
             cpu_ms: 0.5,
             wall_ms: 9.0,
+            gpu_ms: Some(times[0] + times[1] + 0.5),
             passes: ["shadow_map", "visibility"]
                 .into_iter()
                 .zip(times)
@@ -103,8 +102,8 @@ mod tests {
         let mut samples = Samples::default();
         samples.add(frame([1.0, 2.0]));
         samples.add(frame([3.0, 5.0]));
-        samples.add(FrameCost { passes: Vec::new(), ..frame([0.0; 2]) });
-        assert_eq!(samples.device_ms, [3.0, 8.0]);
+        samples.add(FrameCost { gpu_ms: None, passes: Vec::new(), ..frame([0.0; 2]) });
+        assert_eq!(samples.device_ms, [3.5, 8.5]);
         assert_eq!(samples.wall_ms.len(), 3);
         let passes = [("shadow_map".to_owned(), vec![1.0, 3.0]), ("visibility".to_owned(), vec![2.0, 5.0])];
         assert_eq!(samples.passes_ms, passes);

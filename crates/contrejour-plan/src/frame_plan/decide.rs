@@ -89,7 +89,9 @@ pub(super) fn passes(
         passes.extend(smoothie_passes(input, smoothies, left_out));
     } else if let Technique::Variance(_) = input.settings.technique {
         passes.extend([Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments]);
-        if !input.device.float32_filterable {
+        if input.settings.depth_precision == DepthPrecision::Bits16 {
+            left_out.add(Omitted::FullMoments, Reason::HalvesAskedFor);
+        } else if !input.device.float32_filterable {
             left_out.add(Omitted::FullMoments, Reason::DeviceFiltersNoFloats);
         }
     } else {

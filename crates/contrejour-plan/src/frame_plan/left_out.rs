@@ -60,6 +60,8 @@ pub enum Reason {
     HardwareDepthIsEnough,
     /// The device's samplers do not weigh 32-bit floats.
     DeviceFiltersNoFloats,
+    /// The settings ask for 16 bits.
+    HalvesAskedFor,
     /// The shadow map is 16-bit, and every device blends 16-bit floats.
     HalvesBlend,
     /// The caller wants the list of silhouette edges and nothing else.
@@ -117,6 +119,7 @@ impl fmt::Display for Reason {
             Self::DeviceFiltersNoFloats => {
                 "the device's samplers do not weigh 32-bit floats: 16 bits, and an exponent of at most 5.54"
             }
+            Self::HalvesAskedFor => "the settings ask for 16 bits, with an exponent of at most 5.54",
             Self::HalvesBlend => "16-bit floats blend on every device: one pass fills depth and alpha",
             Self::OnlySilhouettesWanted => "only the list of silhouette edges is wanted",
             Self::NoVisibilityTextureWanted => "the maps are looked up in the caller's own shader",

@@ -1,7 +1,7 @@
 //! The maps of a light view.
 
 use super::DeviceFacts;
-use crate::{DepthPrecision, ShadowSettings, Technique};
+use crate::{DepthPrecision, ShadowSettings, Technique, VarianceSettings, VarianceSoftness};
 
 /// A texture of a light view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -86,7 +86,7 @@ impl TextureKind {
             Self::Moments => {
                 let warped =
                     matches!(settings.technique, Technique::Variance(variance) if variance.warp_exponent > 0.0);
-                match (warped, device.float32_filterable) {
+                match (warped, settings.moments_have_32_bits(device)) {
                     (false, false) => TextureFormat::Rg16Float,
                     (false, true) => TextureFormat::Rg32Float,
                     (true, false) => TextureFormat::Rgba16Float,
@@ -124,10 +124,21 @@ impl TextureFormat {
 impl TexturePlan {
     pub(super) fn new(kind: TextureKind, settings: &ShadowSettings, device: &DeviceFacts) -> Self {
         let (size, format) = (settings.map_size, kind.format(settings, device));
-        let levels = if kind == TextureKind::Moments { size.ilog2() + 1 } else { 1 };
+        let levels = if kind == TextureKind::Moments { moment_levels(settings) } else { 1 };
         let sides = (0..levels).map(|level| u64::from((size >> level).max(1)));
         let texels: u64 = sides.map(|side| side * side).sum();
         Self { kind, format, size, levels, bytes: texels * format.texel_bytes() }
+    }
+}
+
+/// Levels of moments that receivers can look up. Level n is as blurred as by a disk of more than 2^n texels.
+fn moment_levels(settings: &ShadowSettings) -> u32 {
+    let all = settings.map_size.ilog2() + 1;
+    match settings.technique {
+        Technique::Variance(VarianceSettings { softness: VarianceSoftness::Texels(texels), .. }) => {
+            all.min(texels.max(1.0).log2().ceil() as u32 + 1)
+        }
+        _ => all,
     }
 }
 
@@ -137,7 +148,7 @@ mod tests {
 
     #[test]
     fn moments_have_all_levels() {
-        let technique = "evsm".parse().expect("there is such a technique");
+        let technique = "evsm-pcss".parse().expect("there is such a technique");
         let settings = ShadowSettings { map_size: 6, technique, ..ShadowSettings::default() };
         let device = DeviceFacts { float32_filterable: true, ..DeviceFacts::default() };
         let plan = TexturePlan::new(TextureKind::Moments, &settings, &device);
@@ -147,11 +158,23 @@ mod tests {
     }
 
     #[test]
+    fn an_even_blur_needs_few_levels() {
+        let levels = |texels: f64| {
+            let mut technique: Technique = "vsm".parse().expect("there is such a technique");
+            technique.set("blur_texels", texels).expect("in range");
+            let settings = ShadowSettings { map_size: 64, technique, ..ShadowSettings::default() };
+            TexturePlan::new(TextureKind::Moments, &settings, &DeviceFacts::default()).levels
+        };
+        assert_eq!([0.0, 1.0, 4.0, 5.0, 8.0, 1024.0].map(levels), [1, 1, 3, 4, 4, 7]);
+    }
+
+    #[test]
     fn half_the_precision_is_half_the_memory() {
-        for kind in [TextureKind::ShadowDepth, TextureKind::SmoothieBuffer] {
+        for kind in [TextureKind::ShadowDepth, TextureKind::SmoothieBuffer, TextureKind::Moments] {
             let bytes = |depth_precision| {
                 let settings = ShadowSettings { depth_precision, ..ShadowSettings::default() };
-                TexturePlan::new(kind, &settings, &DeviceFacts::default()).bytes
+                let device = DeviceFacts { float32_filterable: true, ..DeviceFacts::default() };
+                TexturePlan::new(kind, &settings, &device).bytes
             };
             assert_eq!(bytes(DepthPrecision::Bits32), 2 * bytes(DepthPrecision::Bits16));
         }

@@ -16,7 +16,7 @@ pub struct ShadowSettings {
     pub map_size: u32,
     /// Depth bias.
     pub bias: DepthBias,
-    /// How exactly the maps keep linear depth, where the technique has any. Default: 32 bits.
+    /// How exactly the maps keep linear depth and its moments, where the technique has any. Default: 32 bits.
     pub depth_precision: DepthPrecision,
 }
 
@@ -135,16 +135,21 @@ impl ShadowSettings {
         Ok(())
     }
 
-    /// The same as far as a device can do it: moments of devices that do not filter 32-bit floats have 16 bits, which
-    /// hold the warp only up to [`VarianceSettings::MAX_EXPONENT_OF_HALVES`].
+    /// The same as far as a device can do it: moments of 16 bits hold the warp only up to
+    /// [`VarianceSettings::MAX_EXPONENT_OF_HALVES`].
     pub fn on_device(&self, device: &DeviceFacts) -> Self {
         let mut settings = *self;
         if let Technique::Variance(variance) = &mut settings.technique
-            && !device.float32_filterable
+            && !self.moments_have_32_bits(device)
         {
             variance.warp_exponent = variance.warp_exponent.min(VarianceSettings::MAX_EXPONENT_OF_HALVES);
         }
         settings
+    }
+
+    /// Whether moments are 32-bit floats: where they are asked for and samplers weigh them.
+    pub(crate) fn moments_have_32_bits(&self, device: &DeviceFacts) -> bool {
+        self.depth_precision == DepthPrecision::Bits32 && device.float32_filterable
     }
 }
 

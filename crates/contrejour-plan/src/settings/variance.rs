@@ -6,8 +6,8 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VarianceSettings {
     /// Exponent of the warp of depth, which runs from -1 to 1 over the view (Lauritzen and McCool 2008); 0 leaves depth as
-    /// it is, which makes a plain variance shadow map. Range: 0 to 42, the most that 32-bit moments hold; on devices
-    /// that do not filter 32-bit floats at most 5.54. Default: 0, and 5.54 where it warps. The larger, the less light
+    /// it is, which makes a plain variance shadow map. Range: 0 to 42, the most that 32-bit moments hold; with 16
+    /// bits, also on devices that do not filter 32-bit floats, at most 5.54. Default: 0, and 5.54 where it warps. The larger, the less light
     /// bleeds through overlapping shadows, and the closer to percentage-closer filtering.
     pub warp_exponent: f32,
     /// How soft the edges are. Default: a disk of 4 texels.
@@ -28,7 +28,8 @@ pub enum VarianceSoftness {
     /// Everywhere as by a disk of this radius. Unit: texels. Range: 0 to 1024.
     Texels(f32),
     /// As the light's size and the blockers' depth ask, which the moments tell too (Yang, Dong, Feng, Seidel and Kautz
-    /// 2010, "Variance soft shadow mapping").
+    /// 2010, "Variance soft shadow mapping"). One area is searched as a whole; Yang et al. subdivide it where blockers
+    /// in it are far apart in depth, so light leaks more here, into small cavities above all.
     FromLightSize {
         /// Largest radius of the search for blockers in NDC (the map's side is 2). Range: more than 0, up to 2. Default:
         /// 0.2.

@@ -13,7 +13,7 @@ use super::visibility_pass::{VISIBILITY_FORMAT, VisibilityPass};
 use crate::casters::CastShadows;
 use crate::error::{DrawError, MAX_REPEATS};
 use crate::readback::{ReadError, read_texture};
-use crate::stage_timer::{PassTime, StageTimer};
+use crate::stage_timer::{FrameTime, PassTime, StageTimer};
 use crate::targets::target_texture;
 
 /// Shadows of a judged scene with settings of their own, and the visibility that they give its receivers.
@@ -36,6 +36,9 @@ pub struct FrameCost {
     /// Time on the wall from the begin of the submission until the device is done, which no other frame shares. On a
     /// [software device](crate::Gpu::is_software) this is what tells techniques apart. Unit: milliseconds.
     pub wall_ms: f64,
+    /// Time on the device from the begin of the first stage to the end of the last pass, what lies between them
+    /// included; `None` where the device has no timestamps. Unit: milliseconds.
+    pub gpu_ms: Option<f64>,
     /// Time of each stage and pass on the device, in their order; the last is `visibility`. Empty where the device has
     /// no timestamps.
     pub passes: Vec<PassTime>,
@@ -103,11 +106,19 @@ impl Contestant {
         self.timer.end_frame()?;
         gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
         gpu.check()?;
-        let mut passes = Vec::new();
+        let mut time = FrameTime::default();
         while let Some(frame) = self.timer.take_frame() {
-            passes = frame;
+            time = frame;
         }
-        Ok(FrameCost { cpu_ms, wall_ms, passes, is_unchanged: shadows.stats().is_unchanged, repeats: 0 })
+        let FrameTime { whole_ms, passes } = time;
+        Ok(FrameCost {
+            cpu_ms,
+            wall_ms,
+            gpu_ms: whole_ms,
+            passes,
+            is_unchanged: shadows.stats().is_unchanged,
+            repeats: 0,
+        })
     }
 
     /// Visibility of the light from each receiver in the last frame, rows from the top, 0 dark to 1 lit; 1 where there
