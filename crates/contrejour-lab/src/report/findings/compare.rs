@@ -25,9 +25,11 @@ impl Contestant {
 }
 
 impl Group {
-    /// Whether the first contestant's RMSE is less by more than the truth itself is uncertain.
+    /// Whether the first contestant's RMSE is less by more than the truth's noise moves an RMSE: the
+    /// pixels' errors are independent, so their mean is finer than one pixel by the root of their number.
     pub(super) fn is_more_exact(&self, contestant: &Contestant, than: &Contestant) -> bool {
-        than.rmse() - contestant.rmse() > self.truth.standard_error_rms
+        let receivers = contestant.errors.receivers.pixels as f64;
+        than.rmse() - contestant.rmse() > self.truth.standard_error_rms / receivers.sqrt()
     }
 
     /// Whether the first contestant is both more exact and faster.

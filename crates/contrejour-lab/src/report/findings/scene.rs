@@ -20,7 +20,8 @@ pub(super) fn sentences(group: &Group) -> Vec<String> {
         more_exact_than_hard(group),
         beaten_by_peers(group),
         beats_peers(group),
-        motion(group),
+        largest_jumps(group),
+        mean_jumps(group),
     ]
     .into_iter()
     .flatten()
@@ -38,10 +39,7 @@ fn most_exact(group: &Group) -> Option<String> {
     let alike = if like.is_empty() {
         String::new()
     } else {
-        format!(
-            "; {like} can't be told from it, since the truth itself is exact to {}",
-            significant(group.truth.standard_error_rms, 2)
-        )
+        format!("; {like} can't be told from it within the noise of the truth")
     };
     Some(format!("Most exact: {}, with an RMSE of {}{at}{alike}.", best.family, error(best.rmse())))
 }
@@ -134,19 +132,36 @@ fn beats_peers(group: &Group) -> Option<String> {
     (!wins.is_empty()).then(|| format!("Both more exact and faster: {}.", listed(wins)))
 }
 
-fn motion(group: &Group) -> Option<String> {
+/// The largest jump of each family of ours beside that of the most exact peer.
+fn largest_jumps(group: &Group) -> Option<String> {
+    let largest = |contestant: &Contestant| {
+        let motion = contestant.errors.motion.as_ref()?;
+        Some(format!("{} ({})", error(motion.largest), contestant.family))
+    };
+    let told: Vec<String> = ours(group).filter_map(largest).collect();
+    let peer = group.most_exact(|contestant| contestant.is_peer() && contestant.errors.motion.is_some());
+    let beside =
+        peer.and_then(largest).map_or(String::new(), |peer| format!("; with the most exact other soft shadow {peer}"));
+    (!told.is_empty()).then(|| {
+        format!(
+            "While the light moves, visibility jumps beyond what the truth does by at most {}{beside}.",
+            listed(told)
+        )
+    })
+}
+
+fn mean_jumps(group: &Group) -> Option<String> {
     let mean = |contestant: &Contestant| contestant.errors.motion.as_ref().map(|motion| motion.mean);
     let hard = group.baseline().and_then(mean).filter(|&mean| mean > 0.0)?;
     let is_told = |times: f64| times >= MOTION_WORTH_TELLING || times <= 1.0 / MOTION_WORTH_TELLING;
     let told: Vec<String> = ours(group)
         .filter_map(|ours| Some((ours, mean(ours)? / hard)))
         .filter(|&(_, times)| is_told(times))
-        .map(|(ours, times)| format!("{} {}", ours.family, significant(times, 2)))
+        .map(|(ours, times)| format!("{} ({})", significant(times, 2), ours.family))
         .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "While the light moves, visibility jumps beyond what the truth does: {} times as much as with the plain \
-             shadow map.",
+            "Averaged over all pixels and steps, these jumps are this many times the plain shadow map's: {}.",
             listed(told)
         )
     })

@@ -2,64 +2,67 @@
 
 use super::super::number::significant;
 use super::super::{Contestant, Group};
-use super::compare::listed;
+use super::compare::{error, listed};
 
 pub(super) fn sentences(groups: &[&Group]) -> Vec<String> {
-    [against_hard(groups), against_peers(groups), times(groups), software(groups), sizes(groups)]
-        .into_iter()
-        .flatten()
-        .collect()
+    let others = [times(groups), software(groups), sizes(groups)];
+    exactness(groups).into_iter().chain(others.into_iter().flatten()).collect()
 }
 
-/// The scenes where our most exact family and another contestant can be compared.
-fn compared<'a>(
+/// How each family of ours stands to the plain hard shadow and to the most exact peer; who loses most comes first.
+fn exactness(groups: &[&Group]) -> Vec<String> {
+    let mut families: Vec<&str> = Vec::new();
+    for ours in groups.iter().flat_map(|group| group.standing()).filter(|ours| ours.is_ours()) {
+        if !families.contains(&ours.family.as_str()) {
+            families.push(&ours.family);
+        }
+    }
+    let mut verdicts: Vec<(usize, String)> = Vec::new();
+    for family in families {
+        let hard = verdict(groups, family, "the plain hard shadow", Group::baseline);
+        let peer =
+            verdict(groups, family, "the most exact other soft shadow", |group| group.most_exact(Contestant::is_peer));
+        let losses = [&hard, &peer].into_iter().flatten().map(|(losses, _)| losses).sum();
+        let said = [hard, peer].into_iter().flatten().map(|(_, verdict)| verdict).collect::<Vec<_>>().join("; ");
+        if !said.is_empty() {
+            verdicts.push((losses, format!("{} are {said}.", capitalised(family))));
+        }
+    }
+    verdicts.sort_by_key(|(losses, _)| std::cmp::Reverse(*losses));
+    verdicts.into_iter().map(|(_, verdict)| verdict).collect()
+}
+
+/// On which scenes a family is less and more exact than another contestant, and on how many it is less.
+fn verdict<'a>(
     groups: &[&'a Group],
+    family: &str,
+    other: &str,
     with: impl Fn(&'a Group) -> Option<&'a Contestant>,
-) -> Vec<(&'a Group, &'a Contestant, &'a Contestant)> {
-    let compared =
-        groups.iter().filter_map(|&group| Some((group, group.most_exact(Contestant::is_ours)?, with(group)?)));
-    compared.collect()
-}
-
-fn against_hard(groups: &[&Group]) -> Option<String> {
-    verdict("the plain hard shadow", &compared(groups, Group::baseline))
-}
-
-fn against_peers(groups: &[&Group]) -> Option<String> {
-    verdict(
-        "the most exact of the other soft shadows",
-        &compared(groups, |group| group.most_exact(Contestant::is_peer)),
-    )
-}
-
-/// On which scenes our most exact family is better or worse than the other.
-fn verdict(other: &str, compared: &[(&Group, &Contestant, &Contestant)]) -> Option<String> {
-    let scenes = |is: &dyn Fn(&Group, &Contestant, &Contestant) -> bool| {
-        let named: Vec<&str> = compared
-            .iter()
-            .filter(|(group, ours, other)| is(group, ours, other))
-            .map(|(group, ..)| group.scene.as_str())
-            .collect();
-        (named.len(), listed(named))
-    };
-    let (better, better_named) = scenes(&|group, ours, other| group.is_more_exact(ours, other));
-    let (worse, worse_named) = scenes(&|group, ours, other| group.is_more_exact(other, ours));
-    let all = compared.len();
-    let place = |count: usize, named: &str| {
-        if count == all { place_all(all) } else { format!("on {count} of {all} scenes ({named})") }
-    };
-    let parts: Vec<String> = [("more exact", better, better_named), ("less exact", worse, worse_named)]
+) -> Option<(usize, String)> {
+    let [mut less, mut alike, mut more] = [const { Vec::new() }; 3];
+    for &group in groups {
+        let Some((ours, other)) = group.standing_for(family).zip(with(group)) else { continue };
+        let place = format!("{} (RMSE {} against {})", group.scene, error(ours.rmse()), error(other.rmse()));
+        if group.is_more_exact(other, ours) {
+            less.push(place);
+        } else if group.is_more_exact(ours, other) {
+            more.push(place);
+        } else {
+            alike.push(place);
+        }
+    }
+    let losses = less.len();
+    let parts: Vec<String> = [("less exact than", less), ("as exact as", alike), ("more exact than", more)]
         .into_iter()
-        .filter(|(_, count, _)| *count > 0)
-        .map(|(how, count, named)| format!("{how} than {other} {}", place(count, &named)))
+        .filter(|(_, places)| !places.is_empty())
+        .map(|(how, places)| format!("{how} {other} on {}", listed(places)))
         .collect();
-    let verdict =
-        if parts.is_empty() { format!("as exact as {other} {}", place_all(all)) } else { parts.join(", and ") };
-    (all > 0).then(|| format!("The most exact smoothies are {verdict}."))
+    (!parts.is_empty()).then(|| (losses, parts.join(", and ")))
 }
 
-fn place_all(scenes: usize) -> String {
-    if scenes == 1 { "on the one scene measured".to_owned() } else { format!("on all {scenes} scenes") }
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// The range of times of smoothies and of the most exact other soft shadow, as ratios to the plain shadow map.

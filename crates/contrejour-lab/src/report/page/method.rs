@@ -50,8 +50,8 @@ pub(super) fn text(report: &Report) -> Markup {
                 dt { "Motion" }
                 dd {
                     "While the light moves slowly: how much a pixel's visibility changes from frame to frame beyond "
-                    "what the truth does, " code { "max(0, |ΔV| − |ΔT|)" } "; mean and 99th percentile over pixels and "
-                    "steps."
+                    "what the truth does, " code { "max(0, |ΔV| − |ΔT|)" } "; mean, 99th percentile and largest over "
+                    "pixels and steps."
                 }
             }
             dt { "Time" }

@@ -31,10 +31,15 @@ fn head(group: &Group) -> Markup {
     html! {
         tr {
             th scope="col" { "Family" }
-            th scope="col" { "whole" }
+            th scope="col" { (whole(group)) }
             @for stage in stages(group) { th scope="col" { code { (stage.replace('_', "_\u{200b}")) } } }
         }
     }
+}
+
+/// Head of the column of whole times. Where device times do not cover all of the work, wall-clock stands in.
+fn whole(group: &Group) -> &'static str {
+    if group.standing().all(|contestant| contestant.cost.device.is_some()) { "whole" } else { "whole (wall-clock)" }
 }
 
 fn body(group: &Group) -> Markup {
@@ -95,5 +100,18 @@ mod tests {
         );
         group.settle();
         assert_eq!(stages(&group), ["classify_faces", "shadow_map", "blur", "smoothie_buffer", "visibility"]);
+    }
+
+    #[test]
+    fn whole_times_on_the_wall_clock_are_called_so() {
+        let head_of = |has_device: bool| {
+            let mut contestant = sample::contestant("plain", "plain", "shadow-map", 0.1, 1.0);
+            contestant.cost.device = contestant.cost.device.filter(|_| has_device);
+            let mut group = sample::group("square", 1024, vec![contestant]);
+            group.settle();
+            head(&group).into_string()
+        };
+        assert!(head_of(false).contains(">whole (wall-clock)<"));
+        assert!(head_of(true).contains(">whole<"));
     }
 }

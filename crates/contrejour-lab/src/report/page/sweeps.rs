@@ -7,7 +7,7 @@ use super::super::{Contestant, Group, Report};
 use super::table::{boxed, number, ratio, timing};
 
 /// How many columns belong together, after that of the names.
-const GROUPS: [usize; 8] = [3, 3, 2, 1, 2, 4, 2, 2];
+const GROUPS: [usize; 8] = [3, 3, 2, 1, 3, 4, 2, 2];
 
 pub(super) fn tables(report: &Report) -> Markup {
     html! {
@@ -41,7 +41,7 @@ fn head() -> Markup {
             th.group colspan="3" scope="colgroup" { "Penumbra" }
             th.group colspan="2" scope="colgroup" { "Umbra" }
             th.group rowspan="2" scope="col" { "FLIP" }
-            th.group colspan="2" scope="colgroup" { "Motion" }
+            th.group colspan="3" scope="colgroup" { "Motion" }
             th.group colspan="4" scope="colgroup" { "Time in ms, and over the plain shadow map's" }
             th.group colspan="2" scope="colgroup" { "CPU record in ms" }
             th.group colspan="2" scope="colgroup" { "Memory" }
@@ -49,8 +49,8 @@ fn head() -> Markup {
         tr {
             @for _ in 0..2 { @for name in ["RMSE", "mean", "99 %"] { th scope="col" { (name) } } }
             @for name in [
-                "too large", "too small", "mean", "99 %", "device", "×", "wall-clock", "×", "median", "×", "maps",
-                "buffers",
+                "too large", "too small", "mean", "99 %", "largest", "device", "×", "wall-clock", "×", "median", "×",
+                "maps", "buffers",
             ] {
                 th scope="col" { (name) }
             }
@@ -86,6 +86,7 @@ fn row(contestant: &Contestant) -> Markup {
             (number(errors.flip.map(|flip| significant(flip, 3)), false))
             (number(errors.motion.map(|motion| significant(motion.mean, 2)), false))
             (number(errors.motion.map(|motion| significant(motion.percentile_99, 2)), false))
+            (number(errors.motion.map(|motion| significant(motion.largest, 3)), false))
             td { @if let Some(device) = &cost.device { (timing(device)) } @else { "–" } }
             td { (ratio(over.and_then(|over| over.device))) }
             td { (timing(&cost.wall)) }

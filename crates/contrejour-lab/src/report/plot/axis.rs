@@ -19,11 +19,13 @@ pub(super) struct Ticks {
 impl Ticks {
     /// An axis that holds some values, which have a place on its scale; none where there is no value.
     pub(super) fn around(values: impl Iterator<Item = f64>, scale: Scale) -> Option<Self> {
-        let (least, most) = values.fold(None, |range: Option<(f64, f64)>, value| {
-            Some(range.map_or((value, value), |(least, most)| (least.min(value), most.max(value))))
-        })?;
+        let mut values: Vec<f64> = values.collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        let (&least, &most) = values.first().zip(values.last())?;
         Some(match scale {
             Scale::Linear => Self::linear(most),
+            Scale::Log if are_map_sizes(&values) => Self { ticks: values, ..Self::log(least, most) },
             Scale::Log => Self::log(least, most),
         })
     }
@@ -61,6 +63,12 @@ impl Ticks {
             Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
         }
     }
+}
+
+/// Whether values are a few powers of two, as the sizes of maps are: each is then a tick of its own.
+fn are_map_sizes(values: &[f64]) -> bool {
+    let is_power_of_two = |value: f64| value >= 2.0 && value.log2().fract() == 0.0;
+    (3..=9).contains(&values.len()) && values.iter().copied().all(is_power_of_two)
 }
 
 /// A step of 1, 2 or 5 times a power of ten that fits four to nine times into a length.
@@ -114,6 +122,13 @@ mod tests {
             assert!(axis.high >= most && (4..=10).contains(&axis.ticks.len()), "{most}: {axis:?}");
         }
         assert_eq!(ticks(&[0.0], Scale::Linear).high, 1.0);
+    }
+
+    #[test]
+    fn sizes_of_maps_are_their_own_ticks() {
+        let sizes = [1024.0, 256.0, 512.0, 256.0, 2048.0];
+        assert_eq!(ticks(&sizes, Scale::Log).ticks, [256.0, 512.0, 1024.0, 2048.0]);
+        assert_ne!(ticks(&[256.0, 500.0, 1024.0], Scale::Log).ticks, [256.0, 500.0, 1024.0]);
     }
 
     #[test]
