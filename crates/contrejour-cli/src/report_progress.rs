@@ -24,8 +24,17 @@ impl Progress {
 
     pub fn show(&self, event: &Event<'_>) {
         match *event {
-            Event::Estimated { duration, groups } => {
-                self.tell(&format!("{groups} groups, about {}", HumanDuration(duration)));
+            Event::Estimated { duration, groups, figures } => {
+                if let Some(line) = estimate(duration, groups, figures) {
+                    self.tell(&line);
+                }
+            }
+            Event::NothingToDo { shard, groups } => {
+                self.tell(&format!("shard {shard} has nothing to measure: {}", counted(groups, "group")));
+            }
+            Event::WithoutArea { scene, receivers } => {
+                let points = counted(receivers, "point");
+                self.tell(&format!("{scene}: {points} on faces without area left out of the comparison"));
             }
             Event::Resumed { scene, map_size } => self.tell(&format!("{scene} at {map_size} is there already")),
             Event::OutOfTime { scene, map_size } => {
@@ -64,6 +73,36 @@ impl Progress {
     }
 }
 
+/// What is still to do and how long the groups of it take; none where nothing is.
+fn estimate(duration: Duration, groups: usize, figures: usize) -> Option<String> {
+    let measured = (groups > 0).then(|| format!("{}, about {}", counted(groups, "group"), HumanDuration(duration)));
+    let made = (figures > 0).then(|| format!("{} of the papers", counted(figures, "figure")));
+    match (measured, made) {
+        (Some(measured), Some(made)) => Some(format!("{measured}; then {made}, which take time of their own")),
+        (None, Some(made)) => Some(format!("only {made} to make")),
+        (measured, None) => measured,
+    }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 fn seconds(duration: Duration) -> String {
     format!("{:.1} s", duration.as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_estimate_names_what_is_left() {
+        let line = |groups, figures| estimate(Duration::from_secs(24), groups, figures);
+        assert_eq!(line(1, 0).as_deref(), Some("1 group, about 24 seconds"));
+        let both = "2 groups, about 24 seconds; then 10 figures of the papers, which take time of their own";
+        assert_eq!(line(2, 10).as_deref(), Some(both));
+        assert_eq!(line(0, 1).as_deref(), Some("only 1 figure of the papers to make"));
+        assert_eq!(line(0, 0), None);
+    }
 }

@@ -13,6 +13,8 @@ const TINY: &str = "report --quick --picture-size 64x48 --scenes square,boxes --
 pub fn trials() -> Vec<Trial> {
     vec![
         cpu_trial("report::what_cannot_be_measured_is_refused", nonsense_is_refused),
+        gpu_trial("report::nothing_is_begun_that_cannot_end", what_cannot_end_is_not_begun),
+        gpu_trial("report::a_shard_says_that_it_is_a_part", a_shard_says_so),
         gpu_trial("report::shards_merge_into_what_one_run_finds", shards_merge),
         gpu_trial("report::goes_on_and_refuses_another_seed", goes_on),
         gpu_trial("report::redoes_the_figures_of_the_papers", figures_are_made),
@@ -29,6 +31,37 @@ fn nonsense_is_refused() -> Outcome {
         let refusal = folder.run(arguments).refusal()?;
         if !refusal.contains(expected) {
             return Err(format!("{arguments}: {refusal}"));
+        }
+    }
+    Ok(())
+}
+
+/// A size or scene that can't be measured is refused before anything is written, so that the mended command can go.
+fn what_cannot_end_is_not_begun() -> Outcome {
+    let dark = "size = [64, 48]\n[camera]\neye = [3, 2, 5]\ntarget = [0, 0, 0]\n\
+                [light]\nkind = \"spot\"\nposition = [0, 4, 0]\ntarget = [0, 0, 0]\n\
+                [[mesh]]\nshape = { kind = \"box\" }\nreceives = false\n";
+    let folder = Folder::with(&[("dark.toml", dark)]);
+    for (arguments, expected) in [
+        ("--scenes square --sizes 32,99999999", "99999999"),
+        ("--scenes square,dark.toml --sizes 32", "nothing to compare"),
+    ] {
+        let refusal = folder.run(&format!("report --quick --picture-size 64x48 {arguments} -o out")).refusal()?;
+        if !refusal.contains(expected) || folder.names() != ["dark.toml"] {
+            return Err(format!("{arguments}: {refusal}; left are {:?}", folder.names()));
+        }
+    }
+    Ok(())
+}
+
+/// The page of a part says which part it is, also of one that has nothing.
+fn a_shard_says_so() -> Outcome {
+    let folder = Folder::new();
+    let tiny = "report --quick --picture-size 64x48 --scenes square --sizes 32,48 --techniques shadow-map";
+    for (shard, expected) in [("2/2", "shard 2/2: 1 of 2 groups measured"), ("3/9", "shard 3/9: 0 of 2 groups")] {
+        folder.run(&format!("{tiny} --shard {shard} -o {}", &shard[..1])).stdout()?;
+        if !folder.read(&format!("{}/index.html", &shard[..1]))?.contains(expected) {
+            return Err(format!("the page of shard {shard} should say {expected:?}"));
         }
     }
     Ok(())
@@ -54,6 +87,9 @@ fn shards_merge() -> Outcome {
     }
     let [whole, merged] = [read(&folder, "whole")?, read(&folder, "merged")?];
     differences(&whole, &merged)?;
+    if merged.header.shard.is_some() || folder.read("merged/index.html")?.contains("groups measured") {
+        return Err("the merged page is no part".into());
+    }
     if !folder.read("merged/index.html")?.contains("data:image/png") {
         return Err("the merged page should hold pictures".into());
     }
@@ -78,6 +114,9 @@ fn goes_on() -> Outcome {
         return Err("a kept group should not be measured again".into());
     }
     differences(&first, &second)?;
+    std::fs::remove_dir_all(folder.path("out/pictures")).map_err(|error| error.to_string())?;
+    folder.run(&format!("{tiny} --sizes 32,48")).stdout()?;
+    differences(&first, &read(&folder, "out")?)?;
     let refusal = folder.run(&format!("{tiny} --sizes 32,48 --seed 9")).refusal()?;
     if !(refusal.contains("another seed") && refusal.contains("--restart")) {
         return Err(refusal);

@@ -17,7 +17,8 @@ pub struct Report {
     pub figures: Vec<Figure>,
 }
 
-/// How a report was made. Groups of shards belong together where all of this but the command is equal.
+/// How a report was made. Groups of shards belong together where all of this but the command and the
+/// shard is equal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// The command that makes it again.
@@ -34,6 +35,12 @@ pub struct Header {
     pub truth_samples_max: u64,
     /// Standard error of visibility at which the truth stops sampling. Range: 0 (never) to 1.
     pub truth_target_error: f64,
+    /// How many groups all of it has; fewer are there where it is a shard or time ran out. 0 where it is not known.
+    #[serde(default)]
+    pub groups_asked: usize,
+    /// Which shard it is, e.g. `2/3`; none where it is all of a run.
+    #[serde(default)]
+    pub shard: Option<String>,
 }
 
 /// How much a report measures.

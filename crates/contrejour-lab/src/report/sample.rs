@@ -13,6 +13,8 @@ pub fn report(groups: Vec<Group>) -> Report {
         picture_size: [320, 240],
         truth_samples_max: 1024,
         truth_target_error: 0.004,
+        groups_asked: groups.len(),
+        shard: None,
     };
     let mut report = Report { header, groups, figures: Vec::new() };
     report.settle();

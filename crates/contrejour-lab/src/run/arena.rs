@@ -38,6 +38,9 @@ impl Arena {
         tell: Tell,
     ) -> Result<Self, RunError> {
         let subject = Subject::new(gpu, named, options.effort.picture_size)?;
+        if subject.without_area > 0 {
+            tell(&Event::WithoutArea { scene: &named.name, receivers: subject.without_area });
+        }
         let key = truth_key(named, &subject, options);
         let path = folder.truth_file(&named.name);
         let truth = match SceneTruth::load(&key, &path) {
@@ -107,6 +110,7 @@ pub(super) fn truth_key(named: &NamedScene, subject: &Subject, options: &RunOpti
     TruthKey::new(named.fingerprint(), subject.receivers_fingerprint(), options.seed, &options.effort)
 }
 
-fn has_flip() -> bool {
+/// Whether the build compares pictures by FLIP.
+pub(super) fn has_flip() -> bool {
     cfg!(feature = "flip")
 }

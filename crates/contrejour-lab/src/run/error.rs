@@ -32,6 +32,14 @@ pub enum RunError {
         /// The name or size.
         what: String,
     },
+    /// A map does not fit on the device.
+    #[error("a map of {map_size} texels is larger than this device's {limit}; give smaller --sizes")]
+    MapTooLarge {
+        /// Texels along its side.
+        map_size: u32,
+        /// The device's `max_texture_dimension_2d`.
+        limit: u32,
+    },
     /// The folder holds another run.
     #[error(
         "{folder} holds a run with another {what}; give another folder with -o, or --restart to measure all again",

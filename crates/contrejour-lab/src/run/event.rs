@@ -2,15 +2,35 @@
 
 use std::time::Duration;
 
+use super::shard::Shard;
+
 /// Something that happened. Whoever runs decides how it is shown.
 #[derive(Clone, Copy, Debug)]
 pub enum Event<'a> {
-    /// Before a full run: how long it will take, from a small part of the work.
+    /// Before a full run: how long its groups will take, from a small part of the work, and what comes after them.
     Estimated {
-        /// The time.
+        /// The time of the groups.
         duration: Duration,
         /// How many groups are measured.
         groups: usize,
+        /// How many figures of the papers are made then. Their time is not in `duration`: they have scenes of their own,
+        /// which no small part of the groups tells about.
+        figures: usize,
+    },
+    /// There are more shards than groups, and this one has none.
+    NothingToDo {
+        /// The shard.
+        shard: Shard,
+        /// How many groups all shards have together.
+        groups: usize,
+    },
+    /// Some points that a picture shows lie on faces without area, which the tracer can't tell sides of: they are not
+    /// compared.
+    WithoutArea {
+        /// The scene.
+        scene: &'a str,
+        /// How many points.
+        receivers: usize,
     },
     /// A group is not measured, because an earlier run with the same arguments did.
     Resumed {

@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 
 use super::error::RunError;
 use super::manifest::{Manifest, Work};
-use crate::report::{Figure, Group};
+use crate::report::{Body, Figure, Group};
 
 /// What the run is to measure.
 const MANIFEST_FILE: &str = "run.json";
@@ -77,18 +77,26 @@ impl RunFolder {
         self.read(MANIFEST_FILE)
     }
 
-    /// A group that was measured before.
+    /// A group that was measured before and whose pictures are there.
     pub(super) fn group(&self, work: &Work) -> Result<Option<Group>, RunError> {
-        self.read(&group_file(work))
+        let group: Option<Group> = self.read(&group_file(work))?;
+        Ok(group.filter(|group| pictures(group).all(|picture| self.path(picture).is_file())))
     }
 
     pub(super) fn keep_group(&self, work: &Work, group: &Group) -> Result<(), RunError> {
         self.write(&group_file(work), group)
     }
 
-    /// A figure that was made before.
+    /// A figure that was made before and whose pictures are there.
     pub(super) fn figure(&self, name: &str) -> Result<Option<Figure>, RunError> {
-        self.read(&figure_file(name))
+        let figure: Option<Figure> = self.read(&figure_file(name))?;
+        Ok(figure.filter(|figure| match &figure.body {
+            Body::Pictures(grid) => {
+                let mut cells = grid.rows.iter().flat_map(|row| &row.cells).flatten();
+                cells.all(|picture| self.path(&picture.path).is_file())
+            }
+            Body::Table(_) | Body::Plot(_) => true,
+        }))
     }
 
     pub(super) fn keep_figure(&self, name: &str, figure: &Figure) -> Result<(), RunError> {
@@ -115,6 +123,12 @@ impl RunFolder {
             _ => Ok(()),
         }
     }
+}
+
+/// Paths of a group's pictures from the folder.
+fn pictures(group: &Group) -> impl Iterator<Item = &String> {
+    let of_contestants = group.contestants.iter().flat_map(|who| who.picture.iter().chain(&who.difference));
+    group.truth_picture.iter().chain(of_contestants)
 }
 
 fn group_file(work: &Work) -> String {
@@ -160,6 +174,21 @@ mod tests {
 
         let restarted = RunFolder::open(&root, &other, true).expect("all again");
         assert_eq!(restarted.group(&work).expect("it can be read"), None);
+    }
+
+    #[test]
+    fn a_group_without_its_pictures_is_measured_again() {
+        let place = tempfile::tempdir().expect("there is room for a folder");
+        let run = manifest(1, 1);
+        let folder = RunFolder::open(place.path(), &run, false).expect("a new folder");
+        let work = run.work().remove(0);
+        let mut contestant = sample::contestant("a", "a", "shadow-map", 0.1, 1.0);
+        contestant.difference = Some(folder.picture("square", "a"));
+        folder.keep_group(&work, &sample::group("square", 256, vec![contestant])).expect("it can be written");
+        assert_eq!(folder.group(&work).expect("it can be read"), None);
+        fs::create_dir(folder.path(PICTURES_FOLDER)).expect("it is not there");
+        fs::write(folder.path(&folder.picture("square", "a")), "").expect("it can be written");
+        assert!(folder.group(&work).expect("it can be read").is_some());
     }
 
     #[test]

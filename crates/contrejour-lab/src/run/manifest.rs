@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use serde::{Deserialize, Serialize};
 
+use super::arena::has_flip;
 use super::effort::Effort;
 use super::error::RunError;
 use super::folder::plain;
@@ -21,6 +22,8 @@ pub(super) struct Manifest {
     pub techniques: Vec<String>,
     /// Number of the shard, and how many there are.
     pub shard: [usize; 2],
+    /// Whether the build compares pictures by FLIP.
+    pub has_flip: bool,
 }
 
 /// A scene, and a number that changes with it.
@@ -64,6 +67,7 @@ impl Manifest {
             sizes: options.sizes.clone(),
             techniques: options.techniques.clone(),
             shard: [options.shard.number(), options.shard.of()],
+            has_flip: has_flip(),
         })
     }
 
@@ -78,9 +82,15 @@ impl Manifest {
 
     /// The groups of its shard.
     pub fn work(&self) -> Vec<Work> {
-        let shard = self.shard();
         let numbered = self.all_work().into_iter().enumerate();
-        numbered.filter(|(index, _)| shard.does(*index)).map(|(_, work)| work).collect()
+        numbered.filter(|(place, _)| self.does(*place)).map(|(_, work)| work).collect()
+    }
+
+    /// Whether a group is its shard's, by the group's place in all work. A map size is dealt after the other, so that
+    /// each shard with several groups has several sizes: the largest maps take the longest.
+    pub fn does(&self, place: usize) -> bool {
+        let (scene, size) = (place / self.sizes.len(), place % self.sizes.len());
+        self.shard().does(size * self.scenes.len() + scene)
     }
 
     /// Its shard. Papers' figures are made by the first one.
@@ -94,6 +104,7 @@ impl Manifest {
         let Header { version, seed, .. } = &self.header;
         [
             (*version != other.header.version, "version of contrejour"),
+            (self.has_flip != other.has_flip, "build of contrejour (with or without FLIP)"),
             (*seed != other.header.seed, "seed"),
             (self.effort != other.effort, "extent (--quick or not) or picture size"),
             (self.scenes != other.scenes, "scene"),
@@ -120,9 +131,12 @@ pub(super) mod tests {
             picture_size: effort.picture_size,
             truth_samples_max: 1024,
             truth_target_error: 0.004,
+            groups_asked: 6,
+            shard: None,
         };
         let scenes = ["square", "boxes"].map(|name| ManifestScene { name: name.into(), fingerprint: 5 }).to_vec();
-        Manifest { header, effort, scenes, sizes: vec![256, 512, 1024], techniques: vec![], shard: [number, of] }
+        let sizes = vec![256, 512, 1024];
+        Manifest { header, effort, scenes, sizes, techniques: vec![], shard: [number, of], has_flip: has_flip() }
     }
 
     #[test]
@@ -137,6 +151,24 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn no_shard_has_one_size_only() {
+        for (scenes, sizes) in [(1, 4), (2, 3), (2, 4), (5, 4), (6, 2)] {
+            let mut run = sample(1, 1);
+            run.scenes = (0..scenes).map(|scene| ManifestScene { name: format!("{scene}"), fingerprint: 5 }).collect();
+            run.sizes = (0..sizes).map(|size| 256 << size).collect();
+            for of in 1..=scenes * sizes {
+                for number in 1..=of {
+                    run.shard = [number, of];
+                    let work = run.work();
+                    let unlike: HashSet<u32> = work.iter().map(|work| work.map_size).collect();
+                    let expected = work.len().min(2);
+                    assert!(unlike.len() >= expected, "{scenes} scenes, {sizes} sizes, {number}/{of}: {work:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn what_differs_is_named_and_command_and_shard_may() {
         let one = sample(1, 2);
         let mut other = sample(2, 2);
@@ -147,5 +179,8 @@ pub(super) mod tests {
         let mut edited = sample(1, 2);
         edited.scenes[1].fingerprint += 1;
         assert_eq!(one.difference(&edited), Some("scene"));
+        let mut rebuilt = sample(1, 2);
+        rebuilt.has_flip = !rebuilt.has_flip;
+        assert_eq!(one.difference(&rebuilt), Some("build of contrejour (with or without FLIP)"));
     }
 }

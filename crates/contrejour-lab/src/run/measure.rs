@@ -6,6 +6,7 @@ use contrejour_plan::ShadowSettings;
 use contrejour_render::Gpu;
 
 use super::arena::Arena;
+use super::check::check;
 use super::contestants::{Entrant, entrants};
 use super::error::RunError;
 use super::event::{Event, Tell};
@@ -32,12 +33,15 @@ pub fn run(gpu: &Gpu, options: &RunOptions, tell: Tell) -> Result<Report, RunErr
     let started = Instant::now();
     let entrants = on_device(gpu, entrants(options.effort.extent, &options.techniques)?, tell);
     let manifest = Manifest::new(options)?;
+    check(gpu, options)?;
     let folder = RunFolder::open(&options.folder, &manifest, options.restart)?;
     let pending = pending(&manifest, &folder, tell)?;
     let is_quick = options.effort.extent == Extent::Quick;
-    if !is_quick && !pending.is_empty() {
+    let lab = Lab { gpu, options, folder: &folder, tell };
+    if !is_quick {
+        let (groups, figures) = (pending.len(), figures::pending(&lab)?);
         let duration = estimate(gpu, options, &entrants, &pending, &folder)?;
-        tell(&Event::Estimated { duration, groups: pending.len() });
+        tell(&Event::Estimated { duration, groups, figures });
     }
 
     let mut arena: Option<(usize, Arena)> = None;
@@ -60,11 +64,8 @@ pub fn run(gpu: &Gpu, options: &RunOptions, tell: Tell) -> Result<Report, RunErr
     }
     drop(arena);
 
-    let figures = match options.shard.number() {
-        1 => figures::all(&Lab { gpu, options, folder: &folder, tell })?,
-        _ => Vec::new(),
-    };
-    let mut report = Report { header: options.header(), groups: kept(&manifest.work(), &folder)?, figures };
+    let figures = figures::all(&lab)?;
+    let mut report = Report { header: manifest.header.clone(), groups: kept(&manifest.work(), &folder)?, figures };
     report.settle();
     report.write(folder.root())?;
     Ok(report)
@@ -84,8 +85,12 @@ fn on_device(gpu: &Gpu, entrants: Vec<Entrant>, tell: Tell) -> Vec<Entrant> {
 
 /// What is still to be measured.
 fn pending(manifest: &Manifest, folder: &RunFolder, tell: Tell) -> Result<Vec<Work>, RunError> {
+    let all = manifest.work();
+    if all.is_empty() {
+        tell(&Event::NothingToDo { shard: manifest.shard(), groups: manifest.all_work().len() });
+    }
     let mut pending = Vec::new();
-    for work in manifest.work() {
+    for work in all {
         match folder.group(&work)? {
             Some(_) => tell(&Event::Resumed { scene: &work.name, map_size: work.map_size }),
             None => pending.push(work),

@@ -108,7 +108,7 @@ pub fn merge(folders: &[PathBuf], command: &str, output: &Path) -> Result<Report
     let mut figures: Vec<Figure> = Vec::new();
     let all_work = first.all_work();
     for (folder, manifest) in &shards {
-        for (place, work) in all_work.iter().enumerate().filter(|(place, _)| manifest.shard().does(*place)) {
+        for (place, work) in all_work.iter().enumerate().filter(|(place, _)| manifest.does(*place)) {
             groups.push((place, finished(folder, work)?));
         }
         figures.extend(Report::read(folder)?.figures);
@@ -117,6 +117,7 @@ pub fn merge(folders: &[PathBuf], command: &str, output: &Path) -> Result<Report
     groups.sort_by_key(|(place, _)| *place);
     let mut header = first.header.clone();
     command.clone_into(&mut header.command);
+    header.shard = None;
     let mut report = Report { header, groups: groups.into_iter().map(|(_, group)| group).collect(), figures };
     report.settle();
     report.write(output)?;

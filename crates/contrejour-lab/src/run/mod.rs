@@ -27,8 +27,9 @@
 //!
 //! # On many machines
 //!
-//! `--shard 2/8` measures every eighth group, from the second on, and needs nothing from the other shards. Shards with
-//! the same arguments are put together by `contrejour report --merge DIR.. -o DIR`. Times are those of the machine that
+//! `--shard 2/8` measures every eighth group, from the second on, and needs nothing from the other shards. Groups are
+//! counted a map size after the other, so that each shard has small maps and large ones. Shards with the same arguments
+//! are put together by `contrejour report --merge DIR.. -o DIR`. Times are those of the machine that
 //! measured the group, so a comparison within a group is always one of the same machine.
 //!
 //! As an array job of Slurm:
@@ -77,6 +78,7 @@
 //! ```
 
 mod arena;
+mod check;
 mod contestants;
 mod effort;
 mod error;

@@ -59,6 +59,8 @@ impl RunOptions {
             picture_size,
             truth_samples_max: self.effort.truth_samples_max(),
             truth_target_error,
+            groups_asked: self.scenes.len() * self.sizes.len(),
+            shard: (self.shard != Shard::WHOLE).then(|| self.shard.to_string()),
         }
     }
 }

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::str::FromStr;
 
-/// Which part of a run is done: every `of`-th piece of work, from the `number`-th on.
+/// Which part of a run is done: every `of`-th piece of work, from the `number`-th on; none where there are fewer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: usize,

@@ -29,6 +29,8 @@ pub(crate) struct Subject {
     receivers: Vec<Receiver>,
     /// For each receiver, its pixel.
     pixels: Vec<usize>,
+    /// How many points that receive shadow are left out, because their faces have no area.
+    pub without_area: usize,
 }
 
 impl Subject {
@@ -50,10 +52,12 @@ impl Subject {
         let occluders = Occluders::new(&meshes)?;
         let seen_from = local.point(scene.camera.eye);
         let points = judge.receivers()?.points;
-        let (pixels, receivers): (Vec<usize>, Vec<Receiver>) = (0..)
+        let (traced, flat): (Vec<_>, Vec<_>) = (0..)
             .zip(points)
             .filter_map(|(pixel, point)| Some((pixel, point?)))
-            .filter(|(_, point)| occluders.has_area(point.face_id))
+            .partition(|(_, point)| occluders.has_area(point.face_id));
+        let (pixels, receivers): (Vec<usize>, Vec<Receiver>) = traced
+            .into_iter()
             .map(|(pixel, point)| {
                 (pixel, Receiver { position: point.position.as_dvec3(), face: point.face_id, seen_from })
             })
@@ -61,7 +65,7 @@ impl Subject {
         if receivers.is_empty() {
             return Err(RunError::NothingToCompare { scene: named.name.clone() });
         }
-        Ok(Self { scene, judge, occluders, receivers, pixels })
+        Ok(Self { scene, judge, occluders, receivers, pixels, without_area: flat.len() })
     }
 
     /// Number of pixels of its picture.

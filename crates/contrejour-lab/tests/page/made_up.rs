@@ -79,6 +79,8 @@ pub fn report(folder: &Path) -> Report {
             picture_size: SIZE,
             truth_samples_max: 4096,
             truth_target_error: 0.002,
+            groups_asked: 3 * SCENES.len(),
+            shard: None,
         },
         groups: groups.collect(),
         figures: figures(),

@@ -24,6 +24,7 @@ pub(super) fn head(report: &Report) -> Markup {
             }
             dl.facts {
                 div { dt { "Command" } dd { code { (header.command) } } }
+                @if let Some(part) = part(report) { div { dt { "Part" } dd { strong.warning { (part) } } } }
                 @for machine in machines(report) {
                     div {
                         dt { "Device" }
@@ -71,6 +72,13 @@ pub(super) fn foot(report: &Report) -> Markup {
     }
 }
 
+/// Which part of what was asked for the report is; none where it is all.
+fn part(report: &Report) -> Option<String> {
+    let (measured, asked) = (report.groups.len(), report.header.groups_asked);
+    let shard = report.header.shard.as_ref().map_or_else(String::new, |shard| format!("shard {shard}: "));
+    (measured < asked).then(|| format!("{shard}{measured} of {asked} groups measured"))
+}
+
 /// Every machine once, in the order of the groups.
 fn machines(report: &Report) -> Vec<&Machine> {
     let mut machines: Vec<&Machine> = Vec::new();
@@ -80,4 +88,21 @@ fn machines(report: &Report) -> Vec<&Machine> {
         }
     }
     machines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::sample::{group, report};
+    use super::*;
+
+    #[test]
+    fn a_part_of_a_report_says_so() {
+        let mut report = report(vec![group("square", 256, Vec::new())]);
+        assert_eq!(part(&report), None);
+        assert!(!head(&report).into_string().contains("<dt>Part"));
+        report.header.groups_asked = 3;
+        assert!(head(&report).into_string().contains("1 of 3 groups measured"));
+        report.header.shard = Some("2/3".into());
+        assert_eq!(part(&report).as_deref(), Some("shard 2/3: 1 of 3 groups measured"));
+    }
 }

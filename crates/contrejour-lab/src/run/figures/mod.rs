@@ -40,12 +40,20 @@ const MAKERS: [Maker; 10] = [
     Maker { name: "own-shadow", make: own_shadow::make },
 ];
 
-/// All figures: those of an earlier run as they are, the others made and kept. A report of chosen techniques has none,
-/// for the papers compare techniques of their own.
+/// What a run makes: the first shard all. A report of chosen techniques has no figures, for the papers compare techniques
+/// of their own.
+fn makers(lab: &Lab) -> &'static [Maker] {
+    let has_figures = lab.options.techniques.is_empty() && lab.options.shard.number() == 1;
+    if has_figures { &MAKERS } else { &[] }
+}
+
+/// How many figures are still to be made.
+pub(super) fn pending(lab: &Lab) -> Result<usize, RunError> {
+    makers(lab).iter().try_fold(0, |count, maker| Ok(count + usize::from(lab.folder.figure(maker.name)?.is_none())))
+}
+
+/// All figures: those of an earlier run as they are, the others made and kept.
 pub(super) fn all(lab: &Lab) -> Result<Vec<Figure>, RunError> {
-    if !lab.options.techniques.is_empty() {
-        return Ok(Vec::new());
-    }
     let make = |maker: &Maker| {
         if let Some(figure) = lab.folder.figure(maker.name)? {
             return Ok(figure);
@@ -55,5 +63,5 @@ pub(super) fn all(lab: &Lab) -> Result<Vec<Figure>, RunError> {
         lab.folder.keep_figure(maker.name, &figure)?;
         Ok(figure)
     };
-    MAKERS.iter().map(make).collect()
+    makers(lab).iter().map(make).collect()
 }
