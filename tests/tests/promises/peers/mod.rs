@@ -17,6 +17,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("peers::filters_are_their_sums", |_| filters::filters_are_their_sums()),
         gpu_trial("peers::strong_warps_are_pcf", |_| variance::strong_warps_are_pcf()),
         gpu_trial("peers::two_depths_need_no_warp", |_| variance::two_depths_need_no_warp()),
+        gpu_trial("peers::variance_soft_shadows_are_near_the_truth", |_| variance::soft_shadows_are_near_the_truth()),
         gpu_trial("peers::halves_are_nearly_floats", |_| everywhere::halves_are_nearly_floats()),
         gpu_trial("peers::all_come_near_the_truth", |_| everywhere::all_come_near_the_truth()),
         mesh_trial("peers::real_meshes", |_, folder| everywhere::real_meshes(folder)),
