@@ -1,9 +1,10 @@
 //! Every technique on every scene.
 
+use std::path::Path;
+
 use contrejour_plan::{DepthPrecision, ShadowSettings, Technique};
 use contrejour_scene::{BUILT_IN_SCENES, Scene};
 use contrejour_tests::harness::Outcome;
-use contrejour_tests::meshes::shared_folder;
 
 use super::judged_scene::{Care, JudgedScene, plates, rmse, settings, text_of};
 
@@ -31,10 +32,7 @@ pub fn all_come_near_the_truth() -> Outcome {
     }
 }
 
-pub fn real_meshes() -> Outcome {
-    let Some(folder) = shared_folder() else {
-        return Ok(());
-    };
+pub fn real_meshes(folder: &Path) -> Outcome {
     for name in ["closed/kitten.obj", "closed/mengerSponge3.glb", "open/EZ_Control_valve.obj"] {
         compare(name, Scene::open(&folder.join(name)).map_err(text_of)?, &Technique::NAMES)?;
     }

@@ -1,11 +1,11 @@
 //! Variance shadow maps, held against percentage-closer filtering with their own blur.
 
-use contrejour_plan::{ShadowSettings, View, views};
+use contrejour_plan::{Light, LightKind, ShadowSettings, View, views};
 use contrejour_render::read_texture;
 use contrejour_tests::harness::Outcome;
 use glam::{DVec2, DVec3};
 
-use super::judged_scene::{JudgedScene, falls_to, plates, rmse, settings, text_of};
+use super::judged_scene::{Care, JudgedScene, falls_to, plates, rmse, settings, text_of};
 
 const MAP_SIZE: u32 = 512;
 const BLUR_TEXELS: f64 = 6.0;
@@ -33,6 +33,33 @@ pub fn two_depths_need_no_warp() -> Outcome {
     falls_to(0.01, &[error(BLUR_TEXELS)?])?;
     // Held against a kernel twice as wide, it is wrong.
     if falls_to(0.01, &[error(2.0 * BLUR_TEXELS)?]).is_err() { Ok(()) } else { Err("any kernel passes".into()) }
+}
+
+/// Under one plate the blockers have one depth, so moments blurred as wide as its penumbra come near the truth, as far as
+/// a blur of triangles is a disk.
+pub fn soft_shadows_are_near_the_truth() -> Outcome {
+    let mut scene = plates(&[("[1.4, 1.2]", "[0.1, 1.6, 0]")])?;
+    scene.keep_floor();
+    let truth = scene.truth(scene.light(), Care::Fine)?;
+    let of_other_light = |factor: f64| scene.truth(&with_radius(scene.light(), factor)?, Care::Fine);
+    let of_other_lights = [of_other_light(0.5)?, of_other_light(2.0)?];
+    for technique in ["vsm-pcss", "evsm-pcss"] {
+        let found = scene.visibility(&settings(technique, &[("bleed_cut", 0.0), ("min_variance", 0.0)], MAP_SIZE))?;
+        falls_to(0.013, &[rmse(&found, &truth)]).map_err(|error| format!("{technique}: {error}"))?;
+        for other in &of_other_lights {
+            if falls_to(0.013, &[rmse(&found, other)]).is_ok() {
+                return Err(format!("{technique}: another light's truth passes"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn with_radius(light: &Light, factor: f64) -> Result<Light, String> {
+    let mut other = *light;
+    let LightKind::Spot { radius, .. } = &mut other.kind else { return Err("the light is a spot".into()) };
+    *radius *= factor;
+    Ok(other)
 }
 
 fn warp_errors(scene: &JudgedScene, exponents: [f64; 4]) -> Result<Vec<f64>, String> {
