@@ -31,9 +31,10 @@ const QUICK_BUDGET: Duration = Duration::from_secs(110);
 /// groups are kept, and the same call goes on after them.
 pub fn run(gpu: &Gpu, options: &RunOptions, tell: Tell) -> Result<Report, RunError> {
     let started = Instant::now();
-    let entrants = on_device(gpu, entrants(options.effort.extent, &options.techniques)?, tell);
+    let entrants = entrants(options.effort.extent, &options.techniques)?;
     let manifest = Manifest::new(options)?;
     check(gpu, options)?;
+    let entrants = on_device(gpu, entrants, tell);
     let folder = RunFolder::open(&options.folder, &manifest, options.restart)?;
     let pending = pending(&manifest, &folder, tell)?;
     let is_quick = options.effort.extent == Extent::Quick;
