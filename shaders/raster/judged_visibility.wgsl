@@ -7,7 +7,7 @@
 
 @vertex
 fn vertex_judged_visibility(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    return vec4f(select(-1.0, 3.0, index == 1u), select(-1.0, 3.0, index == 2u), 0.0, 1.0);
+    return full_screen_clip(index);
 }
 
 @fragment

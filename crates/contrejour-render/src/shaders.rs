@@ -17,7 +17,7 @@ pub(crate) const COMPOSE: &str = wgsl!("raster/compose", "shared/surface_light",
 pub(crate) const RECEIVERS: &str = wgsl!("raster/receivers", "shared/surface");
 
 /// Visibility of those points; to be joined with the library's visibility function at bind group 1.
-pub(crate) const JUDGED_VISIBILITY: &str = wgsl!("raster/judged_visibility");
+pub(crate) const JUDGED_VISIBILITY: &str = wgsl!("raster/judged_visibility", "shared/full_screen");
 
 /// Silhouette edges as lines.
 pub(crate) const SILHOUETTE_LINES: &str = wgsl!("raster/silhouette_lines");

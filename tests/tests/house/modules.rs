@@ -50,7 +50,7 @@ pub fn all() -> Vec<Module> {
         // At the bind groups that the renderer's modules leave to the library.
         for (own, files, group) in [
             ("shade", &["raster/shade", "shared/surface_light", "shared/surface"][..], 2),
-            ("judged_visibility", &["raster/judged_visibility"], 1),
+            ("judged_visibility", &["raster/judged_visibility", "shared/full_screen"], 1),
         ] {
             let wgsl = format!("{}\n{}", joined(files), visibility_wgsl(kind, group));
             modules.push(Module { name: format!("{own}+{kind:?}"), wgsl });

@@ -41,7 +41,7 @@ impl PipelinePlan {
         let (vertices, fragment): (&[_], _) = match pass {
             Pass::HardwareShadowMap => (&["vertex_shadow_map"], None),
             Pass::ShadowMap => (&["vertex_shadow_map"], Some("fragment_shadow_map")),
-            Pass::Moments if is_warped(technique) => (&["vertex_full_screen"], Some("fragment_warped_moments")),
+            Pass::Moments if technique.is_warped() => (&["vertex_full_screen"], Some("fragment_warped_moments")),
             Pass::Moments => (&["vertex_full_screen"], Some("fragment_moments")),
             Pass::BlurredMoments => (&["vertex_full_screen"], Some("fragment_blurred_moments")),
             Pass::SmoothieDepth => (&["vertex_quad", "vertex_corner"], Some("fragment_smoothie_depth")),
@@ -61,8 +61,4 @@ impl PipelinePlan {
         };
         vertices.iter().map(pipeline).collect()
     }
-}
-
-fn is_warped(technique: &Technique) -> bool {
-    matches!(technique, Technique::Variance(variance) if variance.warp_exponent > 0.0)
 }

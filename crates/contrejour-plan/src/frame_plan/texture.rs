@@ -84,8 +84,7 @@ impl TextureKind {
             Self::SmoothieAlpha => TextureFormat::R16Float,
             Self::SmoothieBuffer => by_precision(TextureFormat::Rg16Float, TextureFormat::Rg32Float),
             Self::Moments => {
-                let warped =
-                    matches!(settings.technique, Technique::Variance(variance) if variance.warp_exponent > 0.0);
+                let warped = settings.technique.is_warped();
                 match (warped, settings.moments_have_32_bits(device)) {
                     (false, false) => TextureFormat::Rg16Float,
                     (false, true) => TextureFormat::Rg32Float,

@@ -66,7 +66,7 @@ impl VisibilityKind {
                 Self::Pcss { blocker_samples: pcss.blocker_samples, filter_samples: pcss.filter_samples }
             }
             Technique::Variance(variance) => Self::Variance {
-                warped: variance.warp_exponent > 0.0,
+                warped: variance.is_warped(),
                 from_light_size: matches!(variance.softness, VarianceSoftness::FromLightSize { .. }),
             },
             Technique::Pcf | Technique::Pcss(_) | Technique::Smoothies(_) => Self::Compared(MapSampler::CompareLinear),

@@ -54,6 +54,11 @@ impl Technique {
         "smoothies",
     ];
 
+    /// Whether it reads moments of warped depth.
+    pub(crate) fn is_warped(&self) -> bool {
+        matches!(self, Self::Variance(variance) if variance.is_warped())
+    }
+
     /// Its name on the command line and in scene files.
     pub fn name(&self) -> &'static str {
         match self {
@@ -62,14 +67,12 @@ impl Technique {
             Self::GaussianPcf(_) => "gaussian-pcf",
             Self::BicubicPcf => "bicubic-pcf",
             Self::Pcss(_) => "pcss",
-            Self::Variance(VarianceSettings { warp_exponent, softness, .. }) => {
-                match (*warp_exponent > 0.0, softness) {
-                    (false, VarianceSoftness::Texels(_)) => "vsm",
-                    (true, VarianceSoftness::Texels(_)) => "evsm",
-                    (false, VarianceSoftness::FromLightSize { .. }) => "vsm-pcss",
-                    (true, VarianceSoftness::FromLightSize { .. }) => "evsm-pcss",
-                }
-            }
+            Self::Variance(variance) => match (variance.is_warped(), variance.softness) {
+                (false, VarianceSoftness::Texels(_)) => "vsm",
+                (true, VarianceSoftness::Texels(_)) => "evsm",
+                (false, VarianceSoftness::FromLightSize { .. }) => "vsm-pcss",
+                (true, VarianceSoftness::FromLightSize { .. }) => "evsm-pcss",
+            },
             Self::Smoothies(_) => "smoothies",
         }
     }

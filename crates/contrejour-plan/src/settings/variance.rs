@@ -60,6 +60,13 @@ impl VarianceSettings {
     pub const EVSM_PCSS: Self = Self { softness: VarianceSoftness::FROM_LIGHT_SIZE, ..Self::EVSM };
 }
 
+impl VarianceSettings {
+    /// Whether depth is warped: an exponential variance shadow map.
+    pub fn is_warped(&self) -> bool {
+        self.warp_exponent > 0.0
+    }
+}
+
 impl VarianceSoftness {
     /// From the light's size with the default search.
     pub const FROM_LIGHT_SIZE: Self = Self::FromLightSize { search_max_ndc: 0.2 };
