@@ -10,8 +10,6 @@ pub mod image_compare;
 pub mod lights;
 pub mod meshes;
 pub mod mirror_run;
-pub mod oracle;
-pub mod outline_gap;
 pub mod pipeline;
 pub mod random;
 pub mod ray_cast;

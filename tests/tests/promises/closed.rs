@@ -2,6 +2,7 @@
 
 use contrejour_layout::SilhouetteEdge;
 use contrejour_mesh::TopologyAwareMesh;
+use contrejour_oracle::open_vertices;
 use contrejour_tests::harness::{Outcome, cpu_trial};
 use libtest_mimic::Trial;
 
@@ -9,18 +10,11 @@ pub fn trials() -> Vec<Trial> {
     vec![cpu_trial("closed::comparer_finds_planted_faults", comparer_finds_planted_faults)]
 }
 
-/// Sums up the list of one caster.
+/// Checks the list of one caster.
 pub fn check(mesh: &TopologyAwareMesh, silhouettes: &[SilhouetteEdge]) -> Outcome {
-    let mut sums = vec![0_i64; mesh.positions.len()];
-    for silhouette in silhouettes {
-        let edge = &mesh.edges[silhouette.edge_id as usize];
-        let multiplicity = i64::from(silhouette.left) - i64::from(silhouette.right);
-        sums[edge.high_vertex as usize] += multiplicity;
-        sums[edge.low_vertex as usize] -= multiplicity;
-    }
-    match sums.iter().position(|&sum| sum != 0) {
-        None => Ok(()),
-        Some(vertex) => Err(format!("at vertex {vertex} the multiplicities add up to {}", sums[vertex])),
+    match open_vertices(&mesh.edges, silhouettes)[..] {
+        [] => Ok(()),
+        [vertex, ..] => Err(format!("the silhouette is open at vertex {vertex}")),
     }
 }
 

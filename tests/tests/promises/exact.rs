@@ -2,8 +2,8 @@
 
 use contrejour_layout::{CasterLight, SilhouetteEdge};
 use contrejour_mesh::TopologyAwareMesh;
+use contrejour_oracle::{OracleEdge, OracleTopology};
 use contrejour_tests::harness::{Outcome, cpu_trial};
-use contrejour_tests::oracle::{OracleEdge, OracleTopology};
 use libtest_mimic::Trial;
 
 pub fn trials() -> Vec<Trial> {

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{BLOCK_SIZE, Counters, LIT_WORDS_PER_BLOCK};
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
+use contrejour_oracle::lit;
 use contrejour_plan::{BufferKind, Outputs};
 use contrejour_tests::compare::compare_exact;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use contrejour_tests::hostile::{Hardness, HostileCaster};
-use contrejour_tests::oracle::lit;
 use libtest_mimic::Trial;
 
 /// Not a multiple of a block of faces.

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use contrejour_gpu::ShadowOptions;
+use contrejour_oracle::{GapSearch, blocker_image, outline_gaps};
 use contrejour_plan::{
     ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, View, caster_light, position_scale, views,
 };
@@ -10,7 +11,6 @@ use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::lights;
 use contrejour_tests::meshes::{TestMesh, TestPart, shapes, shared_named};
-use contrejour_tests::outline_gap::{GapSearch, blocker_image, outline_gaps};
 use contrejour_tests::pipeline::Pipeline;
 use glam::{DVec2, Mat4, Vec3};
 use libtest_mimic::Trial;

@@ -2,12 +2,12 @@
 
 use contrejour_gpu::ShadowOptions;
 use contrejour_layout::{CasterLight, SilhouetteEdge};
+use contrejour_oracle::OracleTopology;
 use contrejour_plan::{Outputs, caster_light, position_scale, views};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::lights;
 use contrejour_tests::meshes::{TestMesh, TestPart, all};
-use contrejour_tests::oracle::OracleTopology;
 use contrejour_tests::pipeline::Pipeline;
 use glam::{DMat4, DVec4};
 use libtest_mimic::Trial;
