@@ -5,10 +5,12 @@
 
 mod closed;
 mod facing;
+mod many_lights;
 mod outline_gap;
 mod silhouette;
 
 pub use closed::open_vertices;
 pub use facing::lit;
+pub use many_lights::ManyLights;
 pub use outline_gap::{GapSearch, OutlineGap, blocker_image, outline_gaps};
 pub use silhouette::{OracleEdge, OracleTopology, silhouette};

@@ -35,15 +35,15 @@ pub fn silhouette(positions: &[[f32; 3]], triangles: &[[u32; 3]], light: [f32; 4
     topology.silhouette(light, mirrored)
 }
 
-/// What [`silhouette`] knows of a mesh before it knows the light; for many lights of one mesh.
+/// What [`silhouette`] knows of a mesh before it knows the light; [`ManyLights`](crate::ManyLights) is made of it.
 #[derive(Debug)]
 pub struct OracleTopology {
     positions: Vec<[f32; 3]>,
     faces: Vec<[u32; 3]>,
     /// For each edge its faces, and whether each runs from the lower to the higher vertex.
-    edges: BTreeMap<(u32, u32), Vec<(usize, bool)>>,
+    pub(crate) edges: BTreeMap<(u32, u32), Vec<(usize, bool)>>,
     /// Whose sign each face without area takes (`None`: that of an unlit face), and whether negated.
-    partners: BTreeMap<usize, (Option<usize>, bool)>,
+    pub(crate) partners: BTreeMap<usize, (Option<usize>, bool)>,
 }
 
 impl OracleTopology {
@@ -94,8 +94,12 @@ impl OracleTopology {
     ///
     /// As [`lit`].
     pub fn lit_faces(&self, light: [f32; 4], mirrored: bool) -> Vec<bool> {
-        let at = |vertex: u32| self.positions[vertex as usize];
-        self.faces.iter().map(|&[a, b, c]| lit(at(a), at(b), at(c), light, mirrored)).collect()
+        self.corners_of_faces().map(|[a, b, c]| lit(a, b, c, light, mirrored)).collect()
+    }
+
+    /// The three positions of each face.
+    pub(crate) fn corners_of_faces(&self) -> impl Iterator<Item = [[f32; 3]; 3]> + '_ {
+        (0..self.faces.len()).map(|face| self.corners(face))
     }
 
     fn is_without_area(&self, face: usize) -> bool {
