@@ -111,6 +111,27 @@ impl Gpu {
         bytemuck::pod_collect_to_vec(&bytes[..size as usize])
     }
 
+    /// Reads the bytes of a buffer that may be mapped for reading, when a submission is done; others may still be under
+    /// way.
+    ///
+    /// # Panics
+    ///
+    /// When the device is lost.
+    pub fn map_after<T>(
+        &self,
+        readable: &wgpu::Buffer,
+        submission: wgpu::SubmissionIndex,
+        read: impl FnOnce(&[u8]) -> T,
+    ) -> T {
+        let _waiting = self.waiting();
+        readable.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("the buffer can be mapped"));
+        let poll = wgpu::PollType::Wait { submission_index: Some(submission), timeout: None };
+        self.device.poll(poll).expect("the device works");
+        let result = read(&readable.get_mapped_range(..).expect("the buffer is mapped"));
+        readable.unmap();
+        result
+    }
+
     /// All bytes of a buffer that may be mapped for reading, when the work before it is done.
     ///
     /// # Panics

@@ -1,8 +1,6 @@
 //! Meshes whose faces are hard for the facing test, each with the light that they are hard for.
 
-use contrejour_plan::{Light, LightKind};
-use glam::{DMat4, DVec3, Vec3};
-
+use crate::object_light::ObjectLight;
 use crate::random::Random;
 
 /// Separate faces, under one light.
@@ -12,10 +10,8 @@ pub struct HostileCaster {
     pub kind: Hardness,
     /// Three positions a face.
     pub faces: Vec<[[f32; 3]; 3]>,
-    /// The homogeneous light in the faces' space.
-    pub light_object: [f32; 4],
-    /// Whether it stands mirrored in the world.
-    pub mirrored: bool,
+    /// The light in the faces' space.
+    pub light: ObjectLight,
 }
 
 /// What is hard about faces and light.
@@ -80,32 +76,8 @@ impl HostileCaster {
         };
         let faces = (0..face_count).map(|_| face(&mut random, kind, light, is_point)).collect();
         let [x, y, z] = light;
-        Self { kind, faces, light_object: [x, y, z, if is_point { 1.0 } else { 0.0 }], mirrored }
-    }
-
-    /// World space from the faces' space.
-    pub fn world_from_object(&self) -> DMat4 {
-        DMat4::from_scale(DVec3::new(if self.mirrored { -1.0 } else { 1.0 }, 1.0, 1.0))
-    }
-
-    /// The light in the world; mirroring loses no bits.
-    pub fn light(&self) -> Light {
-        let [x, y, z, w] = self.light_object;
-        let light_world = self.world_from_object().transform_vector3(Vec3::new(x, y, z).as_dvec3());
-        let kind = if w == 1.0 {
-            // Along x, so that there is a view even from the farthest point.
-            let target = DVec3 { x: if light_world.x == 0.0 { 1.0 } else { 0.0 }, ..light_world };
-            LightKind::Spot { position: light_world, target, cone_angle: 2.5, radius: 0.0, near: 1.0, far: 1e30 }
-        } else {
-            LightKind::Directional {
-                towards_light: light_world,
-                center: DVec3::ZERO,
-                half_extent: 1.0,
-                half_depth: 1.0,
-                angular_radius: 0.0,
-            }
-        };
-        Light { kind, color: [1.0; 3] }
+        let light_object = [x, y, z, if is_point { 1.0 } else { 0.0 }];
+        Self { kind, faces, light: ObjectLight { light_object, mirrored } }
     }
 }
 

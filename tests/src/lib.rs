@@ -2,14 +2,17 @@
 
 pub mod ball;
 pub mod compare;
+pub mod exhaust;
 pub mod frame;
 pub mod gpu;
 pub mod harness;
 pub mod hostile;
 pub mod image_compare;
 pub mod lights;
+pub mod many_lights;
 pub mod meshes;
 pub mod mirror_run;
+pub mod object_light;
 pub mod pipeline;
 pub mod random;
 pub mod ray_cast;

@@ -9,7 +9,7 @@ use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh, TriangleMesh};
 use contrejour_scene::shapes::Shape;
 use glam::{DMat4, DVec3};
 
-pub use shared::{shared, shared_folder, shared_named};
+pub use shared::{of_folder, shared, shared_folder, shared_named};
 pub use tiny::{fan, tiny};
 
 /// What one file or generator brings.

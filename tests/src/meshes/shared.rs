@@ -27,6 +27,15 @@ pub fn shared_folder() -> Option<PathBuf> {
 const REFUSED: [&str; 4] =
     ["BoxWithInfinites.glb", "IndexOutOfRange/IndexOutOfRange.gltf", "inf_nan.obj", "invalid_index.obj"];
 
+/// The files of a folder whose path below it is wanted, in the order of their paths; those that do not load say why.
+pub fn of_folder(folder: &Path, is_wanted: impl Fn(&str) -> bool) -> impl Iterator<Item = Result<TestMesh, String>> {
+    let mut paths = Vec::new();
+    collect_paths(folder, &mut paths);
+    paths.sort();
+    paths.retain(|path| is_wanted(&name_below(folder, path)));
+    paths.into_iter().map(move |path| open(folder, &path))
+}
+
 /// Every file of the shared folder but those that are to be refused, in the order of their paths; none where there is no
 /// folder.
 ///
@@ -35,12 +44,9 @@ const REFUSED: [&str; 4] =
 /// When another file does not load.
 pub fn shared() -> Vec<TestMesh> {
     let Some(folder) = shared_folder() else { return Vec::new() };
-    let mut paths = Vec::new();
-    collect_paths(&folder, &mut paths);
-    paths.sort();
-    let is_refused = |path: &&PathBuf| REFUSED.iter().any(|refused| path.ends_with(refused));
-    let wanted = paths.iter().filter(|path| !is_refused(path));
-    wanted.map(|path| open(&folder, path).unwrap_or_else(|error| panic!("{error}"))).collect()
+    let is_refused = |path: &str| REFUSED.iter().any(|refused| Path::new(path).ends_with(refused));
+    let meshes = of_folder(&folder, |path| !is_refused(path));
+    meshes.map(|mesh| mesh.unwrap_or_else(|error| panic!("{error}"))).collect()
 }
 
 /// The files of the shared folder with these paths below it; none where there is no folder.
@@ -54,9 +60,13 @@ pub fn shared_named(names: &[&str]) -> Vec<TestMesh> {
 }
 
 fn open(folder: &Path, path: &Path) -> Result<TestMesh, String> {
-    let name = path.strip_prefix(folder).unwrap_or(path).display().to_string();
+    let name = name_below(folder, path);
     let file = load(path).map_err(|error| error.to_string())?;
     TestMesh::of_file(&name, &file)
+}
+
+fn name_below(folder: &Path, path: &Path) -> String {
+    path.strip_prefix(folder).unwrap_or(path).display().to_string()
 }
 
 fn collect_paths(folder: &Path, paths: &mut Vec<PathBuf>) {

@@ -12,6 +12,7 @@ use contrejour_tests::compare::compare_exact;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use contrejour_tests::hostile::{Hardness, HostileCaster};
+use contrejour_tests::object_light::ObjectLight;
 use libtest_mimic::Trial;
 
 /// Not a multiple of a block of faces.
@@ -32,7 +33,7 @@ fn hostile_faces_are_exact(gpu: &Gpu) -> Outcome {
         for (is_point, mirrored) in [(true, false), (false, true), (true, true), (false, false)] {
             let caster = HostileCaster::new(kind, is_point, mirrored, FACES_EACH);
             let (found, counters) = lit_words_of_device(gpu, &mut shadows, &caster)?;
-            let name = format!("lit words of {kind:?}, light {:?}, mirrored: {mirrored}", caster.light_object);
+            let name = format!("lit words of {kind:?}, {:?}", caster.light);
             compare_exact(&name, &lit_words_of_oracle(&caster), &found)?;
             faces += caster.faces.len();
             near += counters.undecided_near;
@@ -55,11 +56,11 @@ fn lit_words_of_device(
     let mesh = TopologyAwareMesh::build(caster.faces.as_flattened(), &triangles, &BuildOptions::default())
         .map_err(|error| error.to_string())?;
     let mesh = shadows.add_mesh(Arc::new(mesh)).map_err(|error| error.to_string())?;
-    let world_from_object = caster.world_from_object();
+    let world_from_object = caster.light.world_from_object();
     let casters = [CasterInput { mesh, world_from_object, positions: Positions::OfMesh }];
 
     let waiting = gpu.waiting();
-    let frame = FrameInput { light: &caster.light(), casters: &casters };
+    let frame = FrameInput { light: &caster.light.light(), casters: &casters };
     shadows.prepare(&gpu.device, &gpu.queue, &frame).map_err(|error| error.to_string())?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);
@@ -77,9 +78,10 @@ fn word_count(caster: &HostileCaster) -> usize {
 
 /// One bit a face; those behind the last face are clear.
 fn lit_words_of_oracle(caster: &HostileCaster) -> Vec<u32> {
+    let ObjectLight { light_object, mirrored } = caster.light;
     let mut words = vec![0; word_count(caster)];
     for (index, &[a, b, c]) in caster.faces.iter().enumerate() {
-        words[index / 32] |= u32::from(lit(a, b, c, caster.light_object, caster.mirrored)) << (index % 32);
+        words[index / 32] |= u32::from(lit(a, b, c, light_object, mirrored)) << (index % 32);
     }
     words
 }

@@ -1,0 +1,273 @@
+//! Thousands of lights on one mesh: what the device finds against exact arithmetic, counted face by face and edge by
+//! edge, beside what a bare float test would get wrong.
+
+use std::collections::VecDeque;
+use std::ops::Range;
+use std::sync::Arc;
+
+use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_layout::{BLOCK_SIZE, Counters, LIT_WORDS_PER_BLOCK, SilhouetteEdge};
+use contrejour_mesh::TopologyAwareMesh;
+use contrejour_oracle::{ManyLights, OracleEdge, OracleTopology};
+use contrejour_plan::{BufferKind, Outputs};
+
+use crate::gpu::Gpu;
+use crate::many_lights::Corners;
+use crate::meshes::TestMesh;
+use crate::object_light::ObjectLight;
+
+/// Frames that the device works on while the CPU checks others.
+const IN_FLIGHT: usize = 4;
+
+/// What was counted over some lights.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Lights.
+    pub lights: u64,
+    /// Faces times lights.
+    pub face_tests: u64,
+    /// Faces that came to the exact tiers.
+    pub undecided: u64,
+    /// Edges of the exact silhouettes.
+    pub silhouette_edges: u64,
+    /// Signs that a float determinant without a bound gets wrong.
+    pub wrong_by_floats: u64,
+    /// Lit bits of the device that differ from exact arithmetic.
+    pub wrong_bits: u64,
+    /// Edges, with their left and right faces, that only the device or only exact arithmetic has.
+    pub wrong_edges: u64,
+    /// Where the first difference is.
+    pub first_difference: Option<String>,
+}
+
+impl Tally {
+    /// Differences of any kind.
+    pub fn differences(&self) -> u64 {
+        self.wrong_bits + self.wrong_edges
+    }
+
+    /// Adds another one's counts.
+    pub fn add(&mut self, other: Self) {
+        self.lights += other.lights;
+        self.face_tests += other.face_tests;
+        self.undecided += other.undecided;
+        self.silhouette_edges += other.silhouette_edges;
+        self.wrong_by_floats += other.wrong_by_floats;
+        self.wrong_bits += other.wrong_bits;
+        self.wrong_edges += other.wrong_edges;
+        self.first_difference = self.first_difference.take().or(other.first_difference);
+    }
+}
+
+/// The meshes of a file, each once and in its own object space, as casters of one `Shadows` object.
+pub struct Exhaust<'a> {
+    gpu: &'a Gpu,
+    shadows: Shadows,
+    casters: Vec<ExactCaster>,
+    free: Vec<wgpu::Buffer>,
+}
+
+struct ExactCaster {
+    handle: MeshHandle,
+    mesh: Arc<TopologyAwareMesh>,
+    oracle: ManyLights,
+    lit_words: Range<usize>,
+}
+
+/// A submitted frame on its way back.
+struct Waiting {
+    light: ObjectLight,
+    buffer: wgpu::Buffer,
+    submission: wgpu::SubmissionIndex,
+}
+
+/// What a frame left on the device.
+pub struct Found {
+    /// Its counters.
+    pub counters: Counters,
+    /// Its lit bits.
+    pub lit: Vec<u32>,
+    /// Its silhouettes.
+    pub silhouettes: Vec<SilhouetteEdge>,
+}
+
+/// Whether the textbook form, in plain 32-bit floats and without a bound, calls a face lit.
+pub fn is_lit_by_floats(&[a, b, c]: &Corners, light: &ObjectLight) -> bool {
+    let [x, y, z, w] = light.light_object;
+    let minus = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+    let (p, q, r) = (minus(b, a), minus(c, a), minus([x, y, z], a.map(|coordinate| w * coordinate)));
+    let normal = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+    let determinant = normal[0] * r[0] + normal[1] * r[1] + normal[2] * r[2];
+    if light.mirrored { determinant < 0.0 } else { determinant > 0.0 }
+}
+
+impl<'a> Exhaust<'a> {
+    /// Makes the object and adds the meshes.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses.
+    pub fn new(gpu: &'a Gpu, file: &TestMesh) -> Result<Self, String> {
+        let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
+        let mut shadows = Shadows::new(&gpu.device, &options).map_err(|error| error.to_string())?;
+        let mut casters: Vec<ExactCaster> = Vec::new();
+        let mut next_word = 0;
+        for part in &file.parts {
+            if casters.iter().any(|caster| Arc::ptr_eq(&caster.mesh, &part.topology)) {
+                continue;
+            }
+            let mesh = Arc::clone(&part.topology);
+            let words = mesh.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize;
+            casters.push(ExactCaster {
+                handle: shadows.add_mesh(Arc::clone(&mesh)).map_err(|error| error.to_string())?,
+                oracle: ManyLights::new(&OracleTopology::new(&mesh.positions, &part.triangles)),
+                mesh,
+                lit_words: next_word..next_word + words,
+            });
+            next_word += words;
+        }
+        Ok(Self { gpu, shadows, casters, free: Vec::new() })
+    }
+
+    /// The faces of all meshes.
+    pub fn faces(&self) -> Vec<Corners> {
+        self.casters.iter().flat_map(|caster| caster.oracle.corners()).copied().collect()
+    }
+
+    /// Runs a frame for each light and counts.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, or that it makes another light of one.
+    pub fn run(&mut self, lights: &[ObjectLight]) -> Result<Tally, String> {
+        let mut tally = Tally::default();
+        let mut waiting = VecDeque::new();
+        for light in lights {
+            waiting.push_back(self.submit(*light)?);
+            if waiting.len() > IN_FLIGHT {
+                self.check_next(&mut waiting, &mut tally);
+            }
+        }
+        while !waiting.is_empty() {
+            self.check_next(&mut waiting, &mut tally);
+        }
+        Ok(tally)
+    }
+
+    fn submit(&mut self, light: ObjectLight) -> Result<Waiting, String> {
+        light.check_bits()?;
+        let world_from_object = light.world_from_object();
+        let caster =
+            |caster: &ExactCaster| CasterInput { mesh: caster.handle, world_from_object, positions: Positions::OfMesh };
+        let casters: Vec<_> = self.casters.iter().map(caster).collect();
+        let Gpu { device, queue, .. } = self.gpu;
+        let frame = FrameInput { light: &light.light(), casters: &casters };
+        self.shadows.prepare(device, queue, &frame).map_err(|error| error.to_string())?;
+
+        let buffer = self.free.pop().unwrap_or_else(|| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("found"),
+                size: self.layout()[2].end.max(4),
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        });
+        let mut encoder = device.create_command_encoder(&Default::default());
+        self.shadows.encode(&mut encoder, &mut Untimed);
+        for (kind, range) in FOUND.into_iter().zip(self.layout()) {
+            if let Some(source) = self.shadows.buffer(kind) {
+                encoder.copy_buffer_to_buffer(source, 0, &buffer, range.start, range.end - range.start);
+            }
+        }
+        Ok(Waiting { light, buffer, submission: queue.submit([encoder.finish()]) })
+    }
+
+    /// Where each of [`FOUND`] lies in what comes back.
+    fn layout(&self) -> [Range<u64>; 3] {
+        let mut end = 0;
+        FOUND.map(|kind| {
+            let begin = end;
+            end += self.shadows.buffer(kind).map_or(0, wgpu::Buffer::size);
+            begin..end
+        })
+    }
+
+    fn check_next(&mut self, waiting: &mut VecDeque<Waiting>, tally: &mut Tally) {
+        let Some(Waiting { light, buffer, submission }) = waiting.pop_front() else { return };
+        let found = self.gpu.map_after(&buffer, submission, |bytes| self.found(bytes));
+        self.free.push(buffer);
+        tally.add(self.compare(&light, &found));
+    }
+
+    fn found(&self, bytes: &[u8]) -> Found {
+        let [counters, lit, silhouettes] = self.layout().map(|range| &bytes[range.start as usize..range.end as usize]);
+        let counters: Counters = bytemuck::pod_collect_to_vec(counters).first().copied().unwrap_or_default();
+        let silhouettes = &silhouettes[..counters.silhouette_edges as usize * size_of::<SilhouetteEdge>()];
+        Found {
+            counters,
+            lit: bytemuck::pod_collect_to_vec(lit),
+            silhouettes: bytemuck::pod_collect_to_vec(silhouettes),
+        }
+    }
+
+    /// Counts where a frame's findings differ from exact arithmetic.
+    pub fn compare(&self, light: &ObjectLight, found: &Found) -> Tally {
+        let undecided = found.counters.undecided_near + found.counters.undecided_far;
+        let mut tally = Tally { lights: 1, undecided: undecided.into(), ..Tally::default() };
+        for (caster, index) in self.casters.iter().zip(0..) {
+            let lit_faces = caster.oracle.lit_faces(light.light_object, light.mirrored);
+            tally.face_tests += lit_faces.len() as u64;
+            let faces = caster.oracle.corners().iter().zip(&lit_faces);
+            tally.wrong_by_floats += faces.filter(|(face, lit)| is_lit_by_floats(face, light) != **lit).count() as u64;
+
+            let words = &found.lit[caster.lit_words.clone()];
+            let bit = |face: usize| words[face / 32] >> (face % 32) & 1 == 1;
+            let mut wrong = (0..lit_faces.len()).filter(|&face| bit(face) != lit_faces[face]);
+            if let Some(face) = wrong.next() {
+                tally.wrong_bits += 1 + wrong.count() as u64;
+                tally.first_difference.get_or_insert_with(|| format!("face {face} of mesh {index} under {light:?}"));
+            }
+
+            let expected = caster.oracle.silhouette(&lit_faces);
+            tally.silhouette_edges += expected.len() as u64;
+            let only_one_has = differences(&expected, &caster.edges(index, &found.silhouettes));
+            if let Some(edge) = only_one_has.first() {
+                tally.wrong_edges += only_one_has.len() as u64;
+                tally.first_difference.get_or_insert_with(|| format!("{edge:?} of mesh {index} under {light:?}"));
+            }
+        }
+        tally
+    }
+}
+
+const FOUND: [BufferKind; 3] = [BufferKind::Counters, BufferKind::Lit, BufferKind::Silhouettes];
+
+impl ExactCaster {
+    /// The edges of one caster as the oracle writes them, in its order.
+    fn edges(&self, caster: u32, silhouettes: &[SilhouetteEdge]) -> Vec<OracleEdge> {
+        let of_caster = silhouettes.iter().filter(|silhouette| silhouette.caster == caster);
+        let mut edges: Vec<_> = of_caster
+            .map(|silhouette| {
+                let edge = &self.mesh.edges[silhouette.edge_id as usize];
+                let [left, right] = [silhouette.left, silhouette.right].map(u32::cast_signed);
+                OracleEdge { low: edge.low_vertex, high: edge.high_vertex, left, right }
+            })
+            .collect();
+        edges.sort_unstable();
+        edges
+    }
+}
+
+/// What only one of two ascending lists has.
+fn differences(expected: &[OracleEdge], found: &[OracleEdge]) -> Vec<OracleEdge> {
+    let mut differences = Vec::new();
+    let (mut expected, mut found) = (expected.iter().peekable(), found.iter().peekable());
+    while let Some(next) = expected.peek().into_iter().chain(found.peek()).min().copied() {
+        let is_expected = expected.next_if_eq(&next).is_some();
+        let is_found = found.next_if_eq(&next).is_some();
+        if is_expected != is_found {
+            differences.push(*next);
+        }
+    }
+    differences
+}
