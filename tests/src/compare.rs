@@ -3,6 +3,8 @@
 use std::fmt::Debug;
 
 use contrejour_layout::{Corner, FaceRef, Quad, SilhouetteEdge};
+use contrejour_mesh::TopologyAwareMesh;
+use contrejour_oracle::OracleEdge;
 
 /// A record of a list whose order is left to chance.
 pub trait Record: Copy {
@@ -162,6 +164,35 @@ pub fn compare_record<T: Record>(what: &str, expected: &T, actual: &T, tolerance
         }
     }
     Ok(())
+}
+
+/// Silhouettes of a mesh as the oracle writes them, in its order.
+pub fn edges_of<'a>(
+    mesh: &TopologyAwareMesh,
+    silhouettes: impl IntoIterator<Item = &'a SilhouetteEdge>,
+) -> Vec<OracleEdge> {
+    let as_oracle = |silhouette: &SilhouetteEdge| {
+        let edge = &mesh.edges[silhouette.edge_id as usize];
+        let [left, right] = [silhouette.left, silhouette.right].map(u32::cast_signed);
+        OracleEdge { low: edge.low_vertex, high: edge.high_vertex, left, right }
+    };
+    let mut edges: Vec<_> = silhouettes.into_iter().map(as_oracle).collect();
+    edges.sort_unstable();
+    edges
+}
+
+/// What only one of two ascending lists of edges has.
+pub fn edge_differences(expected: &[OracleEdge], found: &[OracleEdge]) -> Vec<OracleEdge> {
+    let mut differences = Vec::new();
+    let (mut expected, mut found) = (expected.iter().peekable(), found.iter().peekable());
+    while let Some(next) = expected.peek().into_iter().chain(found.peek()).min().copied() {
+        let is_expected = expected.next_if_eq(&next).is_some();
+        let is_found = found.next_if_eq(&next).is_some();
+        if is_expected != is_found {
+            differences.push(*next);
+        }
+    }
+    differences
 }
 
 /// Every float is finite.

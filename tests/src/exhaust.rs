@@ -8,12 +8,14 @@ use std::sync::Arc;
 use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{BLOCK_SIZE, Counters, LIT_WORDS_PER_BLOCK, SilhouetteEdge};
 use contrejour_mesh::TopologyAwareMesh;
-use contrejour_oracle::{ManyLights, OracleEdge, OracleTopology};
+use contrejour_oracle::{ManyLights, OracleTopology};
 use contrejour_plan::{BufferKind, Outputs};
+use glam::DMat4;
 
+use crate::compare::{edge_differences, edges_of};
 use crate::gpu::Gpu;
 use crate::many_lights::Corners;
-use crate::meshes::TestMesh;
+use crate::meshes::{TestMesh, TestPart};
 use crate::object_light::ObjectLight;
 
 /// Frames that the device works on while the CPU checks others.
@@ -69,9 +71,21 @@ pub struct Exhaust<'a> {
 
 struct ExactCaster {
     handle: MeshHandle,
+    own_positions: Option<OwnPositions>,
     mesh: Arc<TopologyAwareMesh>,
     oracle: ManyLights,
     lit_words: Range<usize>,
+}
+
+/// Positions that a buffer of the caller's holds.
+#[derive(Clone, Debug)]
+pub struct OwnPositions {
+    /// The buffer.
+    pub buffer: wgpu::Buffer,
+    /// From one position to the next, in bytes.
+    pub stride: u64,
+    /// What it holds.
+    pub positions: Vec<[f32; 3]>,
 }
 
 /// A submitted frame on its way back.
@@ -108,25 +122,50 @@ impl<'a> Exhaust<'a> {
     ///
     /// What the library refuses.
     pub fn new(gpu: &'a Gpu, file: &TestMesh) -> Result<Self, String> {
-        let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
-        let mut shadows = Shadows::new(&gpu.device, &options).map_err(|error| error.to_string())?;
-        let mut casters: Vec<ExactCaster> = Vec::new();
-        let mut next_word = 0;
+        let mut exhaust = Self::empty(gpu)?;
         for part in &file.parts {
-            if casters.iter().any(|caster| Arc::ptr_eq(&caster.mesh, &part.topology)) {
-                continue;
+            if !exhaust.casters.iter().any(|caster| Arc::ptr_eq(&caster.mesh, &part.topology)) {
+                let oracle = OracleTopology::new(&part.topology.positions, &part.triangles);
+                exhaust.add(&part.topology, &oracle, None)?;
             }
-            let mesh = Arc::clone(&part.topology);
-            let words = mesh.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize;
-            casters.push(ExactCaster {
-                handle: shadows.add_mesh(Arc::clone(&mesh)).map_err(|error| error.to_string())?,
-                oracle: ManyLights::new(&OracleTopology::new(&mesh.positions, &part.triangles)),
-                mesh,
-                lit_words: next_word..next_word + words,
-            });
-            next_word += words;
         }
-        Ok(Self { gpu, shadows, casters, free: Vec::new() })
+        Ok(exhaust)
+    }
+
+    /// Makes the object and adds a deforming mesh where a buffer has its vertices.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses.
+    pub fn of_moved(gpu: &'a Gpu, part: &TestPart, moved: OwnPositions) -> Result<Self, String> {
+        let oracle = OracleTopology::new(&part.topology.positions, &part.triangles).moved(&moved.positions);
+        let mut exhaust = Self::empty(gpu)?;
+        exhaust.add(&part.topology, &oracle, Some(moved))?;
+        Ok(exhaust)
+    }
+
+    fn empty(gpu: &'a Gpu) -> Result<Self, String> {
+        let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
+        let shadows = Shadows::new(&gpu.device, &options).map_err(|error| error.to_string())?;
+        Ok(Self { gpu, shadows, casters: Vec::new(), free: Vec::new() })
+    }
+
+    fn add(
+        &mut self,
+        mesh: &Arc<TopologyAwareMesh>,
+        oracle: &OracleTopology,
+        own_positions: Option<OwnPositions>,
+    ) -> Result<(), String> {
+        let first_word = self.casters.last().map_or(0, |caster| caster.lit_words.end);
+        let words = mesh.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize;
+        self.casters.push(ExactCaster {
+            handle: self.shadows.add_mesh(Arc::clone(mesh)).map_err(|error| error.to_string())?,
+            own_positions,
+            mesh: Arc::clone(mesh),
+            oracle: ManyLights::new(oracle),
+            lit_words: first_word..first_word + words,
+        });
+        Ok(())
     }
 
     /// The faces of all meshes.
@@ -157,9 +196,7 @@ impl<'a> Exhaust<'a> {
     fn submit(&mut self, light: ObjectLight) -> Result<Waiting, String> {
         light.check_bits()?;
         let world_from_object = light.world_from_object();
-        let caster =
-            |caster: &ExactCaster| CasterInput { mesh: caster.handle, world_from_object, positions: Positions::OfMesh };
-        let casters: Vec<_> = self.casters.iter().map(caster).collect();
+        let casters: Vec<_> = self.casters.iter().map(|caster| caster.input(world_from_object)).collect();
         let Gpu { device, queue, .. } = self.gpu;
         let frame = FrameInput { light: &light.light(), casters: &casters };
         self.shadows.prepare(device, queue, &frame).map_err(|error| error.to_string())?;
@@ -230,7 +267,8 @@ impl<'a> Exhaust<'a> {
 
             let expected = caster.oracle.silhouette(&lit_faces);
             tally.silhouette_edges += expected.len() as u64;
-            let only_one_has = differences(&expected, &caster.edges(index, &found.silhouettes));
+            let of_caster = found.silhouettes.iter().filter(|silhouette| silhouette.caster == index);
+            let only_one_has = edge_differences(&expected, &edges_of(&caster.mesh, of_caster));
             if let Some(edge) = only_one_has.first() {
                 tally.wrong_edges += only_one_has.len() as u64;
                 tally.first_difference.get_or_insert_with(|| format!("{edge:?} of mesh {index} under {light:?}"));
@@ -240,34 +278,15 @@ impl<'a> Exhaust<'a> {
     }
 }
 
-const FOUND: [BufferKind; 3] = [BufferKind::Counters, BufferKind::Lit, BufferKind::Silhouettes];
-
 impl ExactCaster {
-    /// The edges of one caster as the oracle writes them, in its order.
-    fn edges(&self, caster: u32, silhouettes: &[SilhouetteEdge]) -> Vec<OracleEdge> {
-        let of_caster = silhouettes.iter().filter(|silhouette| silhouette.caster == caster);
-        let mut edges: Vec<_> = of_caster
-            .map(|silhouette| {
-                let edge = &self.mesh.edges[silhouette.edge_id as usize];
-                let [left, right] = [silhouette.left, silhouette.right].map(u32::cast_signed);
-                OracleEdge { low: edge.low_vertex, high: edge.high_vertex, left, right }
-            })
-            .collect();
-        edges.sort_unstable();
-        edges
+    fn input(&self, world_from_object: DMat4) -> CasterInput<'_> {
+        let positions = match &self.own_positions {
+            None => Positions::OfMesh,
+            Some(OwnPositions { buffer, stride, .. }) => Positions::InBuffer { buffer, offset: 0, stride: *stride },
+        };
+        CasterInput { mesh: self.handle, world_from_object, positions }
     }
 }
 
-/// What only one of two ascending lists has.
-fn differences(expected: &[OracleEdge], found: &[OracleEdge]) -> Vec<OracleEdge> {
-    let mut differences = Vec::new();
-    let (mut expected, mut found) = (expected.iter().peekable(), found.iter().peekable());
-    while let Some(next) = expected.peek().into_iter().chain(found.peek()).min().copied() {
-        let is_expected = expected.next_if_eq(&next).is_some();
-        let is_found = found.next_if_eq(&next).is_some();
-        if is_expected != is_found {
-            differences.push(*next);
-        }
-    }
-    differences
-}
+/// What comes back of a frame.
+const FOUND: [BufferKind; 3] = [BufferKind::Counters, BufferKind::Lit, BufferKind::Silhouettes];

@@ -1,6 +1,6 @@
 //! All buffers of one frame on the CPU, pooled without the library's own pooling, and stages that run on them.
 
-use bytemuck::{bytes_of, cast_slice};
+use bytemuck::{bytes_of, bytes_of_mut, cast_slice, cast_slice_mut};
 use contrejour_layout::{
     BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
     LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, SilhouetteEdge, WorkItem,
@@ -186,6 +186,28 @@ impl Frame {
             "draw_args" => cast_slice(&self.draw_args),
             _ => panic!("no buffer is named {binding}"),
         }
+    }
+
+    /// Puts what a stage wrote in place of a binding's bytes.
+    ///
+    /// # Panics
+    ///
+    /// When stages write no buffer of the name, or one of another size.
+    pub fn set_bytes(&mut self, binding: &str, bytes: &[u8]) {
+        let place = match binding {
+            "lit" => cast_slice_mut(&mut self.lit),
+            "undecided" => cast_slice_mut(&mut self.undecided),
+            "counters" => bytes_of_mut(&mut self.counters),
+            "refine_args" => cast_slice_mut(&mut self.refine_args),
+            "silhouettes" => cast_slice_mut(&mut self.silhouettes),
+            "outline_sides" => cast_slice_mut(&mut self.outline_sides),
+            "extrude_args" => cast_slice_mut(&mut self.extrude_args),
+            "quads" => cast_slice_mut(&mut self.quads),
+            "corners" => cast_slice_mut(&mut self.corners),
+            "draw_args" => cast_slice_mut(&mut self.draw_args),
+            _ => panic!("no stage writes {binding}"),
+        };
+        place.copy_from_slice(bytes);
     }
 }
 

@@ -33,6 +33,8 @@ pub enum Hardness {
     Degenerate,
     /// The largest and the smallest numbers, ones, and zeros.
     Extreme,
+    /// Coordinates about 2^-125 and about 2^125 in one face and light.
+    FarApart,
     /// Biased exponents in these ranges, ends included.
     Exponents {
         /// Of the light.
@@ -44,7 +46,7 @@ pub enum Hardness {
 
 impl Hardness {
     /// All kinds; the ranges of exponents lie around those where the tiers of the facing test change.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 20] = [
         Self::AnyBits,
         Self::Coplanar,
         Self::SmallIntegers,
@@ -53,12 +55,19 @@ impl Hardness {
         Self::AxisAligned,
         Self::Degenerate,
         Self::Extreme,
+        Self::FarApart,
         Self::Exponents { light: [127, 140], faces: [90, 130] },
         Self::Exponents { light: [1, 254], faces: [0, 254] },
         Self::Exponents { light: [100, 112], faces: [100, 112] },
         Self::Exponents { light: [160, 170], faces: [160, 170] },
         Self::Exponents { light: [80, 90], faces: [80, 90] },
         Self::Exponents { light: [60, 100], faces: [60, 100] },
+        // Products that underflow beside a number that keeps the float test in its range.
+        Self::Exponents { light: [77, 110], faces: [77, 110] },
+        Self::Exponents { light: [0, 24], faces: [0, 24] },
+        Self::Exponents { light: [230, 254], faces: [230, 254] },
+        Self::Exponents { light: [1, 4], faces: [251, 254] },
+        Self::Exponents { light: [251, 254], faces: [1, 4] },
     ];
 }
 
@@ -104,6 +113,8 @@ fn coordinate(random: &mut Random, kind: Hardness) -> f32 {
         Hardness::SmallIntegers => random.below(17) as f32 - 8.0,
         Hardness::Subnormal => f32::from_bits(random.word() & 0x81ff_ffff),
         Hardness::Extreme => extreme(random),
+        Hardness::FarApart if random.below(2) == 0 => with_exponent(random, [1, 4]),
+        Hardness::FarApart => with_exponent(random, [251, 254]),
         Hardness::Exponents { faces, .. } => with_exponent(random, faces),
         _ => random.signed() as f32,
     }
@@ -132,14 +143,15 @@ fn extreme(random: &mut Random) -> f32 {
     if random.below(2) == 0 { size } else { -size }
 }
 
+/// In or beside the light's plane in most of many ways.
 fn face(random: &mut Random, kind: Hardness, light: [f32; 3], is_point: bool) -> [[f32; 3]; 3] {
-    let [a, mut b, mut c] = [(); 3].map(|()| [(); 3].map(|()| coordinate(random, kind)));
+    let [mut a, mut b, mut c] = [(); 3].map(|()| [(); 3].map(|()| coordinate(random, kind)));
     if kind == Hardness::AnyBits {
         return [a, b, c];
     }
-    let to_light = if is_point { minus(light, a) } else { light };
+    let to_light = if is_point { minus(light, a) } else { light.map(f64::from) };
     let edge = minus(b, a);
-    let choice = random.below(8);
+    let choice = if kind == Hardness::Degenerate { 8 + random.below(8) } else { random.below(12) };
     match (kind, choice) {
         (Hardness::AxisAligned, 0..=5) => {
             let axis = random.below(3);
@@ -148,15 +160,6 @@ fn face(random: &mut Random, kind: Hardness, light: [f32; 3], is_point: bool) ->
                 b[(axis + 1) % 3] = a[(axis + 1) % 3];
             }
         }
-        (Hardness::Degenerate, 0) if is_point => c = light,
-        (Hardness::Degenerate, 1) if is_point => return [light, b, c],
-        (Hardness::Degenerate, 2) => c = at(a, edge, 0.5, edge, 0.0),
-        (Hardness::Degenerate, 3) => c = at(a, edge, 2.0, edge, 0.0),
-        (Hardness::Degenerate, 4) => c = at(a, to_light, 0.5, edge, 0.0),
-        (Hardness::Degenerate, 5) => {
-            (b, c) = (at(a, to_light, 3.0, edge, 0.0), at(a, to_light, -1.0, edge, 0.0));
-        }
-        (Hardness::Degenerate, 6) => c = b,
         (_, 0) => {}
         (_, 1) => c = at(a, edge, 0.5, to_light, 0.25),
         (_, 2) => {
@@ -171,6 +174,16 @@ fn face(random: &mut Random, kind: Hardness, light: [f32; 3], is_point: bool) ->
             let axis = random.below(3);
             (b[axis], c[axis]) = (a[axis], a[axis]);
         }
+        // The light is on a vertex.
+        (_, 8) if is_point => c = light,
+        (_, 9) if is_point => a = light,
+        // It is on the line of an edge.
+        (_, 8) => c = at(b, to_light, 1.0, edge, 0.0),
+        (_, 9 | 10) => c = at(a, to_light, [0.5, -1.0, 2.0][random.below(3)], edge, 0.0),
+        // The face has no area.
+        (_, 11) => c = at(a, edge, [0.5, 2.0][random.below(2)], edge, 0.0),
+        (_, 12) => (b, c) = (at(a, to_light, 3.0, edge, 0.0), at(a, to_light, -1.0, edge, 0.0)),
+        (_, 13) => c = b,
         (Hardness::Grazing, _) => {
             let small = (-(random.below(24) as f64)).exp2();
             c = at(a, edge, small * random.signed(), to_light, small * random.signed());
@@ -188,14 +201,14 @@ fn face(random: &mut Random, kind: Hardness, light: [f32; 3], is_point: bool) ->
     [a, b, c]
 }
 
-fn minus(p: [f32; 3], q: [f32; 3]) -> [f32; 3] {
-    std::array::from_fn(|axis| p[axis] - q[axis])
+fn minus(p: [f32; 3], q: [f32; 3]) -> [f64; 3] {
+    std::array::from_fn(|axis| f64::from(p[axis]) - f64::from(q[axis]))
 }
 
 /// `origin + s p + t q`, rounded once an axis; the origin's coordinate where that has no place in 32 bits.
-fn at(origin: [f32; 3], p: [f32; 3], s: f64, q: [f32; 3], t: f64) -> [f32; 3] {
+fn at(origin: [f32; 3], p: [f64; 3], s: f64, q: [f64; 3], t: f64) -> [f32; 3] {
     std::array::from_fn(|axis| {
-        let place = (f64::from(origin[axis]) + s * f64::from(p[axis]) + t * f64::from(q[axis])) as f32;
+        let place = (f64::from(origin[axis]) + s * p[axis] + t * q[axis]) as f32;
         if place.is_finite() { place } else { origin[axis] }
     })
 }

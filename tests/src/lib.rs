@@ -1,6 +1,7 @@
 //! The harness of the tests: a shared device, stages run alone, meshes, lights, and comparers that can fail.
 
 pub mod ball;
+pub mod chain;
 pub mod compare;
 pub mod exhaust;
 pub mod frame;

@@ -29,7 +29,7 @@ pub fn adversarial_lights(faces: &[Corners], count: usize, random: &mut Random) 
         let (place, is_point) = hard_place(face, middle, radius, index / 2, random);
         let light = object_light(place, is_point, index);
         // Kinds and distances take turns apart from each other.
-        if index / 2 / KINDS % 2 == 0 { light } else { nudged(light, random) }
+        if (index / 2 / KINDS).is_multiple_of(2) { light } else { nudged(light, random) }
     };
     (0..count).map(light).collect()
 }

@@ -83,19 +83,22 @@ impl<'a> Pipeline<'a> {
         self.records(BufferKind::Silhouettes, counters.silhouette_edges)
     }
 
-    /// The quads of the last frame.
+    /// The quads of the last frame, as far as there was room.
     pub fn quads(&self, counters: &Counters) -> Vec<Quad> {
         self.records(BufferKind::Quads, counters.quads)
     }
 
-    /// The corners of the last frame.
+    /// The corners of the last frame, as far as there was room.
     pub fn corners(&self, counters: &Counters) -> Vec<Corner> {
         self.records(BufferKind::Corners, counters.corners)
     }
 
     fn records<T: bytemuck::Pod>(&self, kind: BufferKind, count: u32) -> Vec<T> {
         match self.shadows.buffer(kind) {
-            Some(buffer) => self.gpu.read_back(buffer, count as usize),
+            Some(buffer) => {
+                let room = buffer.size() as usize / size_of::<T>();
+                self.gpu.read_back(buffer, room.min(count as usize))
+            }
             None => Vec::new(),
         }
     }

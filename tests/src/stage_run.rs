@@ -41,6 +41,16 @@ impl Outputs {
     }
 }
 
+impl IntoIterator for Outputs {
+    type Item = (String, Vec<u8>);
+    type IntoIter = std::collections::hash_map::IntoIter<String, Vec<u8>>;
+
+    /// Each buffer's name and bytes.
+    fn into_iter(self) -> Self::IntoIter {
+        self.bytes.into_iter()
+    }
+}
+
 impl StageRun {
     /// Builds the pipeline of an entry point; its bind group 0 is read off the WGSL.
     ///

@@ -66,6 +66,11 @@ impl OracleTopology {
         topology
     }
 
+    /// The same topology when its vertices have moved, partners of faces without area included.
+    pub fn moved(self, positions: &[[f32; 3]]) -> Self {
+        Self { positions: positions.to_vec(), ..self }
+    }
+
     /// The silhouette, by ascending (low, high) vertex.
     ///
     /// # Panics

@@ -7,11 +7,14 @@ use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows,
 use contrejour_layout::{BLOCK_SIZE, Counters, LIT_WORDS_PER_BLOCK};
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
 use contrejour_oracle::lit;
-use contrejour_plan::{BufferKind, Outputs};
+use contrejour_plan::{BufferKind, Outputs, ShadowSettings};
+use contrejour_tests::chain::{Chain, Fault};
 use contrejour_tests::compare::compare_exact;
+use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use contrejour_tests::hostile::{Hardness, HostileCaster};
+use contrejour_tests::meshes::TestMesh;
 use contrejour_tests::object_light::ObjectLight;
 use libtest_mimic::Trial;
 
@@ -21,6 +24,7 @@ const FACES_EACH: usize = 750;
 pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("facing::hostile_faces_are_lit_as_exact_arithmetic_says", hostile_faces_are_exact),
+        gpu_trial("facing::a_fault_in_any_tier_is_found", a_fault_in_any_tier_is_found),
         cpu_trial("facing::comparer_finds_any_wrong_bit", comparer_finds_any_wrong_bit),
     ]
 }
@@ -47,13 +51,57 @@ fn hostile_faces_are_exact(gpu: &Gpu) -> Outcome {
     Err(format!("only {near} and {far} of {faces} faces came to the exact tiers"))
 }
 
+/// Faults in the guards of the tiers.
+const FAULTS: [Fault; 5] = [
+    // A hundredth of the bound for rounding.
+    Fault::Replaced { stage: "classify_faces", piece: "0x1p-19;", fault: "0x1p-19 / 100.0;" },
+    // No bound for underflow.
+    Fault::Replaced { stage: "classify_faces", piece: "0x1p-61;", fault: "0.0;" },
+    // More bits than short integers hold.
+    Fault::Replaced { stage: "classify_faces", piece: "NEAR_SPAN = 61u;", fault: "NEAR_SPAN = 70u;" },
+    Fault::Skipped { stage: "refine_faces" },
+    Fault::Skipped { stage: "resolve_faces" },
+];
+
+fn a_fault_in_any_tier_is_found(gpu: &Gpu) -> Outcome {
+    let mut chain = Chain::new(gpu, "resolve_faces");
+    let casters: Vec<_> = Hardness::ALL
+        .into_iter()
+        .flat_map(|kind| [true, false].map(|is_point| HostileCaster::new(kind, is_point, !is_point, FACES_EACH)))
+        .map(|caster| (frame_of(&caster), lit_words_of_oracle(&caster)))
+        .collect();
+    let are_exact = |chain: &Chain<'_>| {
+        casters.iter().try_for_each(|(frame, expected)| {
+            let mut frame = frame.clone();
+            chain.run(&mut frame);
+            compare_exact("lit words", expected, &frame.lit)
+        })
+    };
+    are_exact(&chain)?;
+    for fault in &FAULTS {
+        if chain.with(fault, are_exact).is_ok() {
+            return Err(format!("not found: {fault:?}"));
+        }
+    }
+    Ok(())
+}
+
+fn frame_of(caster: &HostileCaster) -> Frame {
+    let mut mesh = TestMesh::generated("hostile faces", caster.faces.as_flattened(), &triangles(caster));
+    mesh.parts[0].world_from_object = caster.light.world_from_object();
+    Frame::new(&mesh.parts, &caster.light.light(), &ShadowSettings::default())
+}
+
+fn triangles(caster: &HostileCaster) -> Vec<[u32; 3]> {
+    (0..caster.faces.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect()
+}
+
 fn lit_words_of_device(
     gpu: &Gpu,
     shadows: &mut Shadows,
     caster: &HostileCaster,
 ) -> Result<(Vec<u32>, Counters), String> {
-    let triangles: Vec<_> = (0..caster.faces.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
-    let mesh = TopologyAwareMesh::build(caster.faces.as_flattened(), &triangles, &BuildOptions::default())
+    let mesh = TopologyAwareMesh::build(caster.faces.as_flattened(), &triangles(caster), &BuildOptions::default())
         .map_err(|error| error.to_string())?;
     let mesh = shadows.add_mesh(Arc::new(mesh)).map_err(|error| error.to_string())?;
     let world_from_object = caster.light.world_from_object();

@@ -8,6 +8,7 @@ mod left_out;
 mod no_gaps;
 mod nothing_lost;
 mod nothing_per_edge;
+mod own_positions;
 mod peers;
 mod pictures;
 mod repeatable;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
         repeatable::trials(),
         nothing_lost::trials(),
         nothing_per_edge::trials(),
+        own_positions::trials(),
         no_gaps::trials(),
         smoothie_ways::trials(),
         left_out::trials(),

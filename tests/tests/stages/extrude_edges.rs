@@ -9,10 +9,12 @@ use std::collections::BTreeMap;
 use contrejour_layout::{Counters, OWN_END_HIGH, Quad};
 use contrejour_plan::ViewCounts;
 use contrejour_tests::ball::Ball;
+use contrejour_tests::chain::Fault;
 use contrejour_tests::compare::{Record, check_finite};
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
+use contrejour_tests::stage_run::StageRun;
 use libtest_mimic::Trial;
 
 use crate::outline_balls::{Clip, Image, clip_and_delta, image, ndc_of, q_of, width_of};
@@ -25,6 +27,7 @@ pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("extrude_edges::equals_its_twin", equals_its_twin),
         gpu_trial("extrude_edges::counts_past_a_full_list", counts_past_a_full_list),
+        gpu_trial("extrude_edges::a_missing_clip_is_found", a_missing_clip_is_found),
         cpu_trial("extrude_edges::comparer_finds_planted_faults", comparer_finds_planted_faults),
     ]
 }
@@ -38,12 +41,38 @@ struct Clipped {
 }
 
 fn equals_its_twin(gpu: &Gpu) -> Outcome {
-    let stage = stage(gpu, "extrude_edges");
+    compare_with_twin(gpu, &stage(gpu, "extrude_edges"))
+}
+
+/// Clips of an edge that leave it whole.
+const FAULTS: [Fault; 2] = [
+    Fault::Replaced {
+        stage: "extrude_edges",
+        piece: "clip_by_depth(Span(0.0, 1.0), low_clip, high_clip);",
+        fault: "Span(0.0, 1.0);",
+    },
+    Fault::Replaced {
+        stage: "extrude_edges",
+        piece: "clip_by_sides(depth_span, low_clip, high_clip, 1.0 + width);",
+        fault: "depth_span;",
+    },
+];
+
+fn a_missing_clip_is_found(gpu: &Gpu) -> Outcome {
+    for fault in &FAULTS {
+        if compare_with_twin(gpu, &fault.build(gpu).ok_or("the stage is there")?).is_ok() {
+            return Err(format!("not found: {fault:?}"));
+        }
+    }
+    Ok(())
+}
+
+fn compare_with_twin(gpu: &Gpu, stage: &StageRun) -> Outcome {
     let (mut quads, mut different) = (0, 0);
     for_each_case(&BEFORE_EXTRUSION, |case| {
         let mut twin = case.frame.clone();
         let args = twin.extrude_args[0];
-        let outputs = run(gpu, &stage, &twin, args.x * args.y);
+        let outputs = run(gpu, stage, &twin, args.x * args.y);
         twin.run_mirror("extrude_edges");
         let counters = outputs.get::<Counters>("counters")[0];
         let found: Vec<Quad> = outputs.get("quads");

@@ -1,0 +1,118 @@
+//! The library's compute stages one after the other on a frame's buffers, with a fault planted where a test wants one.
+
+use bytemuck::cast_slice;
+use contrejour_gpu::stages::{self, ComputeStage, Dispatch};
+use contrejour_plan::BufferKind;
+
+use crate::frame::Frame;
+use crate::gpu::Gpu;
+use crate::stage_run::StageRun;
+
+/// Stages on a device, in the order in which a frame runs them.
+#[derive(Debug)]
+pub struct Chain<'a> {
+    gpu: &'a Gpu,
+    stages: Vec<(ComputeStage, StageRun)>,
+}
+
+/// A fault in one stage.
+#[derive(Clone, Copy, Debug)]
+pub enum Fault {
+    /// The stage is left out.
+    Skipped {
+        /// Its name.
+        stage: &'static str,
+    },
+    /// A piece of its text, which it has once, is another.
+    Replaced {
+        /// Its name.
+        stage: &'static str,
+        /// What it says.
+        piece: &'static str,
+        /// What it says with the fault.
+        fault: &'static str,
+    },
+}
+
+impl Fault {
+    fn stage(&self) -> &'static str {
+        match self {
+            Self::Skipped { stage } | Self::Replaced { stage, .. } => stage,
+        }
+    }
+
+    /// The stage with the fault; none where it is left out.
+    ///
+    /// # Panics
+    ///
+    /// When no stage has the name, or its text does not have the piece exactly once: then the fault would be none.
+    pub fn build(&self, gpu: &Gpu) -> Option<StageRun> {
+        match *self {
+            Self::Skipped { .. } => None,
+            Self::Replaced { stage, piece, fault } => {
+                let wgsl = stages::ALL[place(stage)].wgsl;
+                assert_eq!(wgsl.matches(piece).count(), 1, "{stage} says {piece:?} not once");
+                Some(StageRun::new(gpu, &wgsl.replace(piece, fault), stage))
+            }
+        }
+    }
+}
+
+fn place(stage: &str) -> usize {
+    let place = stages::ALL.iter().position(|known| known.stage.name() == stage);
+    place.unwrap_or_else(|| panic!("no stage is named {stage}"))
+}
+
+impl<'a> Chain<'a> {
+    /// The stages from the first to the named one.
+    ///
+    /// # Panics
+    ///
+    /// When no stage has the name.
+    pub fn new(gpu: &'a Gpu, last: &str) -> Self {
+        let build = |stage: &ComputeStage| (*stage, StageRun::new(gpu, stage.wgsl, stage.stage.name()));
+        Self { gpu, stages: stages::ALL[..=place(last)].iter().map(build).collect() }
+    }
+
+    /// Plants a fault, calls `test`, and takes the fault out again.
+    ///
+    /// # Panics
+    ///
+    /// When the chain ends before the fault's stage, and as [`Fault::build`].
+    pub fn with<T>(&mut self, fault: &Fault, test: impl FnOnce(&Self) -> T) -> T {
+        let place = place(fault.stage());
+        let (stage, sound) = self.stages.remove(place);
+        let faulty = fault.build(self.gpu);
+        let is_there = usize::from(faulty.is_some());
+        self.stages.splice(place..place, faulty.map(|faulty| (stage, faulty)));
+        let result = test(self);
+        self.stages.splice(place..place + is_there, [(stage, sound)]);
+        result
+    }
+
+    /// Runs the stages on a frame.
+    pub fn run(&self, frame: &mut Frame) {
+        for (stage, run) in &self.stages {
+            let groups = groups(stage.dispatch, frame);
+            if groups.contains(&0) {
+                continue;
+            }
+            let inputs: Vec<_> = run.bindings().map(|name| (name, frame.bytes(name))).collect();
+            for (name, bytes) in run.run(self.gpu, groups, &inputs) {
+                frame.set_bytes(&name, &bytes);
+            }
+        }
+    }
+}
+
+fn groups(dispatch: Dispatch, frame: &Frame) -> [u32; 3] {
+    match dispatch {
+        Dispatch::Items(BufferKind::EdgeItems) => [frame.edge_items.len() as u32, 1, 1],
+        Dispatch::Items(_) => [frame.face_items.len() as u32, 1, 1],
+        Dispatch::Once => [1, 1, 1],
+        Dispatch::Indirect(kind, index) => {
+            let args: &[[u32; 3]] = cast_slice(frame.bytes(kind.name()));
+            args[index as usize]
+        }
+    }
+}

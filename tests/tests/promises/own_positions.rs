@@ -1,0 +1,121 @@
+//! Where a stage of the caller's moves the vertices on the device, the bits that it leaves are what facing is exact about.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use contrejour_mesh::{BuildOptions, Motion, TopologyAwareMesh};
+use contrejour_tests::exhaust::{Exhaust, OwnPositions};
+use contrejour_tests::gpu::Gpu;
+use contrejour_tests::harness::{Outcome, gpu_trial};
+use contrejour_tests::many_lights::{adversarial_lights, random_lights};
+use contrejour_tests::meshes::{TestPart, shapes, shared_named};
+use contrejour_tests::random::Random;
+use glam::{DMat4, DVec3};
+use libtest_mimic::Trial;
+
+/// Two bones that a vertex follows by its height, as a skin does; positions have 16 bytes.
+const SKIN: &str = r#"
+struct Bones {
+    low: mat4x4f,
+    high: mat4x4f,
+}
+
+@group(0) @binding(0) var<uniform> bones: Bones;
+@group(0) @binding(1) var<storage, read> rest: array<vec4f>;
+@group(0) @binding(2) var<storage, read_write> moved: array<vec4f>;
+
+@compute @workgroup_size(64)
+fn skin(@builtin(global_invocation_id) id: vec3u) {
+    if id.x < arrayLength(&rest) {
+        let position = vec4f(rest[id.x].xyz, 1.0);
+        let weight = smoothstep(-0.5, 0.5, position.y);
+        moved[id.x] = mix(bones.low * position, bones.high * position, weight);
+    }
+}
+"#;
+
+/// Files with seams, skins, faces without area and non-manifold edges.
+const FILES: [&str; 4] =
+    ["animated/RiggedFigure.glb", "closed/Suzanne/Suzanne.gltf", "nasty/hollowcube.obj", "nasty/Offset1.obj"];
+
+pub fn trials() -> Vec<Trial> {
+    vec![gpu_trial("own_positions::silhouettes_are_exact_where_the_device_moves_vertices", are_exact)]
+}
+
+fn are_exact(gpu: &Gpu) -> Outcome {
+    let skin = skin_pipeline(gpu);
+    let mut meshes = shapes();
+    meshes.retain(|mesh| ["box", "torus", "knot"].contains(&mesh.name.as_str()));
+    meshes.extend(shared_named(&FILES));
+    let mut random = Random::new(3);
+    for mesh in &meshes {
+        // Ordinary numbers, numbers that lose bits far from the origin, subnormal and huge ones.
+        for (scale, offset) in [(1.0, 0.0), (1.0, 3000.0), (1e-38, 0.0), (1e30, 0.0)] {
+            let part = deforming(&mesh.parts[0])?;
+            let moved = move_vertices(gpu, &skin, &part, scale, offset);
+            let mut exhaust = Exhaust::of_moved(gpu, &part, moved)?;
+            let faces = exhaust.faces();
+            let mut lights = random_lights(&faces, 8, &mut random);
+            lights.extend(adversarial_lights(&faces, 32, &mut random));
+            if let Some(difference) = exhaust.run(&lights)?.first_difference {
+                return Err(format!("{}, scale {scale}, offset {offset}: {difference}", mesh.name));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn deforming(part: &TestPart) -> Result<TestPart, String> {
+    let options = BuildOptions { motion: Motion::Deforming, ..Default::default() };
+    let topology = TopologyAwareMesh::build(&part.topology.positions, &part.triangles, &options)
+        .map_err(|error| error.to_string())?;
+    Ok(TestPart { topology: Arc::new(topology), ..part.clone() })
+}
+
+/// The library gets the very buffer that the stage wrote; the CPU reads what is in it.
+fn move_vertices(gpu: &Gpu, skin: &wgpu::ComputePipeline, part: &TestPart, scale: f64, offset: f64) -> OwnPositions {
+    let bone = |turns: f64| {
+        let turn = DMat4::from_axis_angle(DVec3::new(0.3, 0.9, 0.2).normalize(), turns * TAU);
+        let place = DMat4::from_translation(DVec3::splat(offset)) * DMat4::from_scale(DVec3::splat(scale));
+        (place * turn).as_mat4()
+    };
+    let rest: Vec<_> = part.topology.positions.iter().map(|&[x, y, z]| [x, y, z, 1.0]).collect();
+    let buffers = [
+        gpu.upload("bones", bytemuck::cast_slice(&[bone(0.1), bone(0.35)]), wgpu::BufferUsages::UNIFORM),
+        gpu.upload("rest", bytemuck::cast_slice(&rest), wgpu::BufferUsages::STORAGE),
+        gpu.upload("moved", &vec![0; size_of_val(&rest[..])], wgpu::BufferUsages::STORAGE),
+    ];
+    let entry = |(buffer, binding)| wgpu::BindGroupEntry { binding, resource: wgpu::Buffer::as_entire_binding(buffer) };
+    let entries: Vec<_> = buffers.iter().zip(0..).map(entry).collect();
+    let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("skin"),
+        layout: &skin.get_bind_group_layout(0),
+        entries: &entries,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut pass = encoder.begin_compute_pass(&Default::default());
+    pass.set_pipeline(skin);
+    pass.set_bind_group(0, &bind_group, &[]);
+    pass.dispatch_workgroups(rest.len().div_ceil(64) as u32, 1, 1);
+    drop(pass);
+    gpu.queue.submit([encoder.finish()]);
+
+    let [_, _, buffer] = buffers;
+    let moved: Vec<[f32; 4]> = gpu.read_back(&buffer, rest.len());
+    OwnPositions { buffer, stride: 16, positions: moved.iter().map(|&[x, y, z, _]| [x, y, z]).collect() }
+}
+
+fn skin_pipeline(gpu: &Gpu) -> wgpu::ComputePipeline {
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("skin"),
+        source: wgpu::ShaderSource::Wgsl(SKIN.into()),
+    });
+    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("skin"),
+        layout: None,
+        module: &module,
+        entry_point: Some("skin"),
+        compilation_options: Default::default(),
+        cache: None,
+    })
+}
