@@ -33,6 +33,8 @@ pub enum Hardness {
     Degenerate,
     /// The largest and the smallest numbers, ones, and zeros.
     Extreme,
+    /// About 2^-18 along x, so that floats are asked, and about 2^-65 across, so that their products underflow.
+    Underflow,
     /// Coordinates about 2^-125 and about 2^125 in one face and light.
     FarApart,
     /// Biased exponents in these ranges, ends included.
@@ -55,6 +57,7 @@ impl Hardness {
         Self::AxisAligned,
         Self::Degenerate,
         Self::Extreme,
+        Self::Underflow,
         Self::FarApart,
         Self::Exponents { light: [127, 140], faces: [90, 130] },
         Self::Exponents { light: [1, 254], faces: [0, 254] },
@@ -62,8 +65,6 @@ impl Hardness {
         Self::Exponents { light: [160, 170], faces: [160, 170] },
         Self::Exponents { light: [80, 90], faces: [80, 90] },
         Self::Exponents { light: [60, 100], faces: [60, 100] },
-        // Products that underflow beside a number that keeps the float test in its range.
-        Self::Exponents { light: [77, 110], faces: [77, 110] },
         Self::Exponents { light: [0, 24], faces: [0, 24] },
         Self::Exponents { light: [230, 254], faces: [230, 254] },
         Self::Exponents { light: [1, 4], faces: [251, 254] },
@@ -92,6 +93,7 @@ impl HostileCaster {
 
 fn light_of(kind: Hardness, random: &mut Random) -> [f32; 3] {
     match kind {
+        Hardness::Underflow => underflowing(random),
         Hardness::AxisAligned => {
             let axis = random.below(3);
             let mut light = [0.0; 3];
@@ -128,6 +130,10 @@ fn with_exponent(random: &mut Random, [low, high]: [u32; 2]) -> f32 {
     f32::from_bits((random.word() & 1) << 31 | exponent << 23 | mantissa)
 }
 
+fn underflowing(random: &mut Random) -> [f32; 3] {
+    [[108, 110], [60, 64], [60, 64]].map(|exponents| with_exponent(random, exponents))
+}
+
 fn extreme(random: &mut Random) -> f32 {
     let size = match random.below(10) {
         0 | 1 => 0.0,
@@ -145,7 +151,10 @@ fn extreme(random: &mut Random) -> f32 {
 
 /// In or beside the light's plane in most of many ways.
 fn face(random: &mut Random, kind: Hardness, light: [f32; 3], is_point: bool) -> [[f32; 3]; 3] {
-    let [mut a, mut b, mut c] = [(); 3].map(|()| [(); 3].map(|()| coordinate(random, kind)));
+    let [mut a, mut b, mut c] = [(); 3].map(|()| match kind {
+        Hardness::Underflow => underflowing(random),
+        _ => [(); 3].map(|()| coordinate(random, kind)),
+    });
     if kind == Hardness::AnyBits {
         return [a, b, c];
     }
