@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::report_args::ReportArguments;
 use crate::shadow_args::ShadowArguments;
+use crate::stability_args::StabilityArguments;
 use crate::values::{parse_size, parse_vector};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -15,7 +16,8 @@ pub struct Arguments {
     pub command: Command,
 }
 
-const AFTER_HELP: &str = "Exit status: 0 when done, 2 with one line on stderr when something is wrong.";
+const AFTER_HELP: &str =
+    "Exit status: 0 when done, 2 with one line on stderr when something is wrong; 1 when `stability` found a fault.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -29,6 +31,8 @@ pub enum Command {
     Plan(PlanArguments),
     /// Measure error against run time of all techniques, and write a page about it
     Report(ReportArguments),
+    /// Try extreme cases until they break by definition, and write a table and a page about them
+    Stability(StabilityArguments),
 }
 
 #[derive(Debug, Args)]

@@ -14,6 +14,8 @@ mod report_progress;
 mod scenes;
 mod shadow_args;
 mod silhouette;
+mod stability;
+mod stability_args;
 mod values;
 
 use std::process::ExitCode;
@@ -21,27 +23,30 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use args::{Arguments, Command};
-use failure::one_line;
+use failure::{Failure, one_line};
 
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return told_by_clap(&error),
     };
-    let result = match arguments.command {
-        Command::Render(arguments) => render::run(&arguments),
-        Command::Silhouette(arguments) => silhouette::run(&arguments),
-        Command::Inspect(arguments) => inspect::run(&arguments),
-        Command::Plan(arguments) => plan::run(&arguments),
-        Command::Report(arguments) => report::run(&arguments),
+    let result: Result<ExitCode, Failure> = match arguments.command {
+        Command::Render(arguments) => done(render::run(&arguments)),
+        Command::Silhouette(arguments) => done(silhouette::run(&arguments)),
+        Command::Inspect(arguments) => done(inspect::run(&arguments)),
+        Command::Plan(arguments) => done(plan::run(&arguments)),
+        Command::Report(arguments) => done(report::run(&arguments)),
+        Command::Stability(arguments) => stability::run(&arguments),
     };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("contrejour: {}", one_line(error.as_ref()));
-            ExitCode::from(2)
-        }
-    }
+    result.unwrap_or_else(|error| {
+        eprintln!("contrejour: {}", one_line(error.as_ref()));
+        ExitCode::from(2)
+    })
+}
+
+/// Most commands either do what they are told or fail.
+fn done(result: Result<(), Failure>) -> Result<ExitCode, Failure> {
+    result.map(|()| ExitCode::SUCCESS)
 }
 
 /// Help and version go to standard output; what cannot be understood is one line on standard error.

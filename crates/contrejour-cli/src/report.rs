@@ -54,7 +54,7 @@ fn named_scene(name: &str) -> Result<NamedScene, Failure> {
 }
 
 /// The command as a shell takes it.
-fn command_line(arguments: impl Iterator<Item = String>) -> String {
+pub fn command_line(arguments: impl Iterator<Item = String>) -> String {
     let is_plain = |char: char| char.is_ascii_alphanumeric() || "-_./,=+:@%".contains(char);
     let quoted = arguments.map(|argument| {
         let needs_no_quotes = !argument.is_empty() && argument.chars().all(is_plain);

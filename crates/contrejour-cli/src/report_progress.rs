@@ -43,7 +43,7 @@ impl Progress {
             Event::NotOnDevice { label } => self.tell(&format!("this device can't do {label}")),
             Event::TruthBegins { scene, receivers } => self.begin(format!("{scene}: truth"), receivers),
             Event::TruthGrows { receivers } => self.bar.inc(receivers),
-            Event::FrameDone => self.bar.inc(1),
+            Event::FrameDone => self.step(),
             Event::GroupBegins { scene, map_size, frames } => self.begin(format!("{scene} at {map_size}"), frames),
             Event::GroupDone { scene, map_size, number, of, duration } => {
                 self.tell(&format!("{number}/{of} {scene} at {map_size}, {}", seconds(duration)));
@@ -53,18 +53,24 @@ impl Progress {
         }
     }
 
+    /// One step of what was begun is done.
+    pub fn step(&self) {
+        self.bar.inc(1);
+    }
+
     pub fn done(&self) {
         self.bar.finish_and_clear();
     }
 
-    fn begin(&self, message: String, length: u64) {
+    /// Work of so many steps is begun.
+    pub fn begin(&self, message: String, length: u64) {
         self.bar.reset();
         self.bar.set_length(length);
         self.bar.set_message(message);
     }
 
     /// A line that stays.
-    fn tell(&self, line: &str) {
+    pub fn tell(&self, line: &str) {
         if self.is_terminal {
             self.bar.println(line);
         } else {
@@ -84,11 +90,11 @@ fn estimate(duration: Duration, groups: usize, figures: usize) -> Option<String>
     }
 }
 
-fn counted(count: usize, what: &str) -> String {
+pub fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-fn seconds(duration: Duration) -> String {
+pub fn seconds(duration: Duration) -> String {
     format!("{:.1} s", duration.as_secs_f64())
 }
 

@@ -1,8 +1,10 @@
-//! Measuring contrejour: what a shadow costs, how wrong it is, and a report that tells it.
+//! Measuring contrejour: what a shadow costs, how wrong it is, what extreme cases do to it, and reports that tell it.
 
 pub mod metrics;
+mod mirror_frame;
 pub mod report;
 pub mod run;
+pub mod stability;
 mod torus;
 
 pub use torus::{Triangles, torus};

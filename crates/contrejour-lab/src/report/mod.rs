@@ -28,6 +28,8 @@ pub use files::{CSV_FILE, JSON_FILE, PAGE_FILE, PLOTS_FOLDER, ReadError, WriteEr
 pub use findings::{Findings, SceneFindings};
 pub use json::{FromJsonError, ToJsonError};
 pub use model::{Contestant, Errors, Extent, Group, Header, Machine, Parameter, Report, Truth};
+pub(crate) use number::{grouped, significant};
 pub use page::PageError;
+pub(crate) use page::{Section, boxed, document, number};
 pub use plot::{PlotError, PlotUse};
 pub use settle::BASELINE_TECHNIQUE;

@@ -1,7 +1,7 @@
 //! Numbers as people read them.
 
 /// A number with a few significant digits, without an exponent: `0.0123`, `12.3`, `12300`.
-pub(super) fn significant(value: f64, digits: i32) -> String {
+pub(crate) fn significant(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
@@ -12,8 +12,15 @@ pub(super) fn significant(value: f64, digits: i32) -> String {
     format!("{rounded:.places$}", places = decimals(rounded).max(0) as usize)
 }
 
-/// A number on an axis: as short as it can be, with k for thousands and M for millions.
+/// A number on an axis: as short as it can be, with k for thousands and M for millions, and with an exponent where many
+/// zeros would stand.
 pub(super) fn tick(value: f64) -> String {
+    if value != 0.0 && !(1e-4..1e9).contains(&value.abs()) {
+        // To a few digits, as below.
+        let text = format!("{value:.5e}");
+        let (share, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{exponent}", share.trim_end_matches('0').trim_end_matches('.'));
+    }
     let (share, unit) = match value.abs() {
         large if large >= 1e6 => (value * 1e-6, " M"),
         large if large >= 1e4 => (value * 1e-3, " k"),
@@ -40,7 +47,7 @@ pub(super) fn percent(share: f64) -> String {
 }
 
 /// A whole number with thin spaces between thousands.
-pub(super) fn grouped(number: u64) -> String {
+pub(crate) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (place, digit) in (0..digits.len()).rev().zip(digits.chars()) {
@@ -67,6 +74,7 @@ mod tests {
         let ticks = [0.0, 0.02, 0.5, 1.0, 200.0, 2048.0, 10_000.0, 150_000.0, 2e6].map(tick);
         assert_eq!(ticks, ["0", "0.02", "0.5", "1", "200", "2048", "10 k", "150 k", "2 M"]);
         assert_eq!(tick(0.1 + 0.2), "0.3");
+        assert_eq!([1e-30, 2e30, -5e-5, 1e9, 0.1 + 0.2e-30].map(tick), ["1e-30", "2e30", "-5e-5", "1e9", "0.1"]);
     }
 
     #[test]

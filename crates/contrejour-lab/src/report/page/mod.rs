@@ -15,6 +15,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::embed::EmbedError;
 use super::{PlotError, PlotUse, Report};
+pub(crate) use table::{boxed, number};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -34,11 +35,42 @@ pub enum PageError {
     },
 }
 
-/// A part of the page that the list at its top leads to.
-struct Section {
-    id: &'static str,
-    title: &'static str,
-    body: Markup,
+/// A part of a page that the list at its top leads to.
+pub(crate) struct Section {
+    pub id: &'static str,
+    pub title: &'static str,
+    pub body: Markup,
+}
+
+/// A page with its head, the sections that have something to say and its foot.
+pub(crate) fn document(title: &str, head: &Markup, sections: &[Section], foot: &Markup) -> String {
+    // Nothing is listed that was not measured.
+    let sections: Vec<&Section> = sections.iter().filter(|section| !section.body.0.is_empty()).collect();
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                (head)
+                nav aria-label="Parts of the report" {
+                    ul { @for section in &sections { li { a href={ "#" (section.id) } { (section.title) } } } }
+                }
+                main {
+                    @for section in &sections {
+                        section id=(section.id) { h2 { (section.title) } (section.body) }
+                    }
+                }
+                (foot)
+            }
+        }
+    };
+    page.into_string()
 }
 
 impl Report {
@@ -62,33 +94,7 @@ impl Report {
             },
             Section { id: "method", title: "How it was measured", body: method::text(self) },
         ];
-        // Nothing is listed that was not measured.
-        let sections: Vec<&Section> = sections.iter().filter(|section| !section.body.0.is_empty()).collect();
-        let page = html! {
-            (DOCTYPE)
-            html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    meta name="color-scheme" content="light dark";
-                    title { (frame::TITLE) }
-                    style { (PreEscaped(STYLE)) }
-                }
-                body {
-                    (frame::head(self))
-                    nav aria-label="Parts of the report" {
-                        ul { @for section in &sections { li { a href={ "#" (section.id) } { (section.title) } } } }
-                    }
-                    main {
-                        @for section in &sections {
-                            section id=(section.id) { h2 { (section.title) } (section.body) }
-                        }
-                    }
-                    (frame::foot(self))
-                }
-            }
-        };
-        Ok(page.into_string())
+        Ok(document(frame::TITLE, &frame::head(self), &sections, &frame::foot(self)))
     }
 }
 

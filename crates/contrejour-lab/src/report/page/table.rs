@@ -7,7 +7,7 @@ use crate::metrics::{Ratio, Timing};
 
 /// A table in a box of its own, in which it scrolls where it is wider than the window. `groups` are the numbers of
 /// columns that lines part from those before; columns beyond them are one more group.
-pub(super) fn boxed(caption: &str, groups: &[usize], head: Markup, body: Markup) -> Markup {
+pub(crate) fn boxed(caption: &str, groups: &[usize], head: Markup, body: Markup) -> Markup {
     html! {
         // Focusable, so that the box scrolls by keyboard too.
         div.scroll tabindex="0" role="region" aria-label=(caption) {
@@ -23,7 +23,7 @@ pub(super) fn boxed(caption: &str, groups: &[usize], head: Markup, body: Markup)
 }
 
 /// A cell with a number, marked where it is the best of its column.
-pub(super) fn number(text: Option<String>, is_best: bool) -> Markup {
+pub(crate) fn number(text: Option<String>, is_best: bool) -> Markup {
     html! {
         @match (text, is_best) {
             (Some(text), true) => td.best { (text) },

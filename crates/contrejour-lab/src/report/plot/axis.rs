@@ -16,6 +16,9 @@ pub(super) struct Ticks {
     ticks: Vec<f64>,
 }
 
+/// Most ticks of a logarithmic axis that has one a decade.
+const TICKS_MAX: usize = 10;
+
 impl Ticks {
     /// An axis that holds some values, which have a place on its scale; none where there is no value.
     pub(super) fn around(values: impl Iterator<Item = f64>, scale: Scale) -> Option<Self> {
@@ -44,12 +47,16 @@ impl Ticks {
         let pad = if most > least { (most / least).powf(0.06).max(1.1) } else { 10_f64.sqrt() };
         let [low, high] = [least / pad, most * pad];
         let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
+        // Of a hundred decades only some have a tick.
+        let decade_step =
+            [1, 2, 5, 10, 20, 50, 100].into_iter().find(|step| decades.clone().count() / step < TICKS_MAX);
+        let decades = decades.step_by(decade_step.unwrap_or(200));
+        let step = round_step(high - low);
+        let even = (1..).map(|i| f64::from(i) * step).skip_while(|&tick| tick < low).take_while(|&tick| tick <= high);
         let in_decades = |factors: &[f64]| -> Vec<f64> {
             let all = decades.clone().flat_map(|decade| factors.iter().map(move |factor| factor * 10_f64.powi(decade)));
             all.filter(|tick| (low..=high).contains(tick)).collect()
         };
-        let step = round_step(high - low);
-        let even = (1..).map(|i| f64::from(i) * step).skip_while(|&tick| tick < low).take_while(|&tick| tick <= high);
         // The coarsest ticks of which there are enough.
         let choices = [in_decades(&[1.0]), in_decades(&[1.0, 2.0, 5.0])];
         let ticks = choices.into_iter().find(|ticks| ticks.len() >= 3).unwrap_or_else(|| even.collect());
@@ -133,7 +140,9 @@ mod tests {
 
     #[test]
     fn log_axes_have_a_few_ticks() {
-        for (least, most) in [(1.0, 1.0), (0.9, 1.4), (0.5, 4.0), (256.0, 8192.0), (10.0, 1e7)] {
+        for (least, most) in
+            [(1.0, 1.0), (0.9, 1.4), (0.5, 4.0), (256.0, 8192.0), (10.0, 1e7), (1e-8, 10.0), (1e-45, 1e38)]
+        {
             let axis = ticks(&[most, least], Scale::Log);
             assert!(axis.low < least && axis.high > most, "{axis:?}");
             assert!((3..=9).contains(&axis.ticks.len()), "{axis:?}");

@@ -11,7 +11,7 @@ use glam::DMat4;
 use super::super::super::error::RunError;
 use super::super::methods::THIN;
 use super::LoneMesh;
-use super::mirror_frame::MAP_SIZE;
+use super::lone_mesh::MAP_SIZE;
 
 /// Frames that are drawn again because lists had to grow.
 const REPEATS_MAX: usize = 8;

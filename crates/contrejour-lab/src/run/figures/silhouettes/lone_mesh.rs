@@ -3,10 +3,17 @@
 use std::sync::Arc;
 
 use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh};
+use contrejour_plan::Light;
 use contrejour_scene::shapes::Shape;
 use contrejour_scene::{MeshSource, Scene};
+use glam::DMat4;
 
 use super::super::super::error::RunError;
+use super::super::methods::THIN;
+use crate::mirror_frame::MirrorFrame;
+
+/// Texels of the map that the geometry is made for: the width of smoothies has a floor in texels.
+pub(super) const MAP_SIZE: u32 = 1024;
 
 /// A mesh, its topology and the scene around it.
 pub(in super::super) struct LoneMesh {
@@ -28,6 +35,12 @@ impl LoneMesh {
     pub fn torus(faces: u32) -> Result<Self, RunError> {
         let sides = (f64::from(faces) / 4.0).sqrt().round() as u32;
         Self::new(&Shape::Torus { radius: 1.0, tube_radius: 0.4, segments: 2 * sides, sides })
+    }
+
+    /// The mesh under a light, for the twins of the stages.
+    pub fn mirror_frame(&self, light: &Light) -> Result<MirrorFrame<'_>, RunError> {
+        let settings = THIN.settings(&self.scene.shadow, MAP_SIZE);
+        Ok(MirrorFrame::new(&[(&self.topology, DMat4::IDENTITY)], light, &settings)?)
     }
 
     pub fn faces(&self) -> f64 {

@@ -2,7 +2,6 @@
 
 mod device_stages;
 mod lone_mesh;
-mod mirror_frame;
 mod ordered_map;
 pub(super) mod size;
 pub(super) mod time;

@@ -35,7 +35,6 @@ mod tests {
     use contrejour_plan::views;
 
     use super::super::lone_mesh::LoneMesh;
-    use super::super::mirror_frame::MirrorFrame;
     use super::*;
 
     /// Silhouettes of a torus by the map and by the stages' twins; the map sees the given faces.
@@ -44,7 +43,7 @@ mod tests {
         let light = torus.scene.light;
         let view = views(&light).expect("a good light")[0];
         let map = ordered_map_silhouette(&torus.topology.positions, &faces(&torus.topology.faces), view.light_world);
-        let twins = MirrorFrame::new(&torus, &light).expect("a frame").run().silhouettes;
+        let twins = torus.mirror_frame(&light).expect("a frame").run().silhouettes;
         let twins = twins.iter().map(|silhouette| {
             let edge = torus.topology.edges[silhouette.edge_id as usize];
             ([edge.low_vertex, edge.high_vertex], silhouette.left as i32 - silhouette.right as i32)

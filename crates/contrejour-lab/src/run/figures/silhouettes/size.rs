@@ -9,7 +9,6 @@ use glam::DVec3;
 use super::super::super::error::RunError;
 use super::super::super::lab::Lab;
 use super::LoneMesh;
-use super::mirror_frame::MirrorFrame;
 use crate::metrics::{PowerLaw, power_law};
 use crate::report::{Axis, Body, Extent, Figure, Plot, Scale, Series, Stroke};
 
@@ -63,7 +62,7 @@ pub(in super::super) fn make(lab: &Lab) -> Result<Figure, RunError> {
 fn point(mesh: &LoneMesh) -> Result<[f64; 2], RunError> {
     let mut edges = 0.0;
     for step in 0..LIGHTS {
-        let frame = MirrorFrame::new(mesh, &on_sphere(&mesh.scene.light, step))?;
+        let frame = mesh.mirror_frame(&on_sphere(&mesh.scene.light, step))?;
         edges += f64::from(frame.run().counters.silhouette_edges);
     }
     Ok([mesh.faces(), edges / f64::from(LIGHTS)])

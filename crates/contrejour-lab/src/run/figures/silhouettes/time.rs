@@ -9,7 +9,6 @@ use super::super::super::error::RunError;
 use super::super::super::lab::Lab;
 use super::LoneMesh;
 use super::device_stages::{DeviceStages, has_clock};
-use super::mirror_frame::MirrorFrame;
 use super::ordered_map::ordered_map_silhouette;
 use crate::metrics::{PowerLaw, Timing, power_law};
 use crate::report::{Axis, Body, Extent, Figure, Plot, Scale, Series, Stroke};
@@ -60,7 +59,7 @@ fn timings(lab: &Lab, torus: &LoneMesh, rounds: usize) -> Result<[Timing; 3], Ru
     let light = torus.scene.light;
     let light_object = views(&light)?[0].light_world;
     let mut device = DeviceStages::new(lab.gpu, torus)?;
-    let mirror = MirrorFrame::new(torus, &light)?;
+    let mirror = torus.mirror_frame(&light)?;
     let mut samples = [Vec::new(), Vec::new(), Vec::new()];
     // The first frame compiles, grows lists and fills caches.
     for round in 0..=rounds {

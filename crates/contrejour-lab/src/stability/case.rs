@@ -1,0 +1,65 @@
+//! One thing to try.
+
+use contrejour_oracle::GapSearch;
+use contrejour_plan::{Light, ShadowSettings};
+use glam::DMat4;
+
+/// Meshes, a light and settings that go through the pipeline together.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// What is varied, as the table has it.
+    pub parameter: String,
+    /// Where the case is along the axis of its family's plots.
+    pub at: f64,
+    /// What casts.
+    pub meshes: Vec<CaseMesh>,
+    /// The light.
+    pub light: Light,
+    /// How its shadow is made.
+    pub settings: ShadowSettings,
+    /// How gaps are looked for; none where the definition leaves some, which `degrades` then explains.
+    pub gap_search: Option<GapSearch>,
+    /// Why the definition does not hold here, in a sentence; empty where it does.
+    pub degrades: String,
+}
+
+/// A mesh in its place.
+#[derive(Clone, Debug)]
+pub struct CaseMesh {
+    /// Position of each vertex, object space.
+    pub positions: Vec<[f32; 3]>,
+    /// Three vertices a triangle, counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// World space from object space.
+    pub world_from_object: DMat4,
+}
+
+impl Case {
+    /// A case with the settings that all families share, and an eye for gaps.
+    pub fn new(parameter: String, at: f64, mesh: CaseMesh, light: Light) -> Self {
+        Self {
+            parameter,
+            at,
+            meshes: vec![mesh],
+            light,
+            settings: ShadowSettings { map_size: MAP_SIZE, ..ShadowSettings::default() },
+            gap_search: Some(GapSearch { directions: 180, max_vertices: 300, ..GapSearch::default() }),
+            degrades: String::new(),
+        }
+    }
+
+    /// The same case where gaps are part of the definition.
+    pub fn without_gap_search(self, degrades: &str) -> Self {
+        Self { gap_search: None, degrades: degrades.to_owned(), ..self }
+    }
+}
+
+/// Texels along the map's side, where a family does not vary them.
+const MAP_SIZE: u32 = 512;
+
+impl CaseMesh {
+    /// A mesh whose object space is the world.
+    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+        Self { positions, triangles, world_from_object: DMat4::IDENTITY }
+    }
+}

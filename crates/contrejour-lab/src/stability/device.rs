@@ -1,0 +1,196 @@
+//! A case on the device, and everything that its frame leaves there.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use bytemuck::{AnyBitPattern, NoUninit, cast_slice, pod_collect_to_vec};
+use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_layout::{CasterLight, Corner, Counters, LightView, Quad, ReceiverView, SilhouetteEdge};
+use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError};
+use contrejour_plan::{BufferKind, Light, ShadowSettings};
+use contrejour_render::{Gpu, read_buffer, read_texture};
+use glam::DMat4;
+use half::f16;
+
+use super::case::CaseMesh;
+use super::checks::non_finite;
+use super::error::{CaseError, Ended, Refusal};
+use super::lights::with_another_depth;
+use crate::metrics::Timing;
+
+/// Frames after which a frame must have had room for everything.
+const REPEATS_MAX: usize = 8;
+
+/// Frames whose median is told.
+const TIMED_FRAMES: usize = 3;
+
+/// A mesh with its topology, in its place.
+#[derive(Clone, Debug)]
+pub(super) struct DeviceMesh {
+    pub topology: Arc<TopologyAwareMesh>,
+    pub world_from_object: DMat4,
+}
+
+impl DeviceMesh {
+    pub fn new(mesh: &CaseMesh) -> Result<Self, TopologyError> {
+        let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())?;
+        Ok(Self { topology: Arc::new(topology), world_from_object: mesh.world_from_object })
+    }
+}
+
+/// Meshes and their shadow on the device.
+pub(super) struct DeviceFrame<'a> {
+    gpu: &'a Gpu,
+    pub shadows: Shadows,
+    casters: Vec<(MeshHandle, DMat4)>,
+}
+
+/// What a frame leaves.
+pub(super) struct DeviceOutputs {
+    /// Lit bits of all casting meshes, one after the other; none where the frame finds none.
+    pub lit: Option<Vec<u32>>,
+    pub silhouettes: Vec<SilhouetteEdge>,
+    pub quads: Vec<Quad>,
+    pub corners: Vec<Corner>,
+    /// Numbers that are not finite, in all records and texels.
+    pub non_finite: u64,
+}
+
+impl<'a> DeviceFrame<'a> {
+    pub fn new(gpu: &'a Gpu, meshes: &[DeviceMesh], settings: &ShadowSettings) -> Result<Self, Refusal> {
+        let options = ShadowOptions { settings: *settings, ..ShadowOptions::default() };
+        let mut shadows = Shadows::new(&gpu.device, &options)?;
+        let mut casters = Vec::new();
+        for mesh in meshes {
+            casters.push((shadows.add_mesh(Arc::clone(&mesh.topology))?, mesh.world_from_object));
+        }
+        Ok(Self { gpu, shadows, casters })
+    }
+
+    /// Draws one frame and waits for it. Returns the time from its submission. Unit: milliseconds.
+    fn draw(&mut self, light: &Light) -> Result<f64, Ended> {
+        let Gpu { device, queue, .. } = self.gpu;
+        let casters: Vec<_> = self
+            .casters
+            .iter()
+            .map(|&(mesh, world_from_object)| CasterInput { mesh, world_from_object, positions: Positions::OfMesh })
+            .collect();
+        let input = FrameInput { light, casters: &casters };
+        self.shadows.prepare(device, queue, &input).map_err(Refusal::from)?;
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.shadows.encode(&mut encoder, &mut Untimed);
+        let clock = Instant::now();
+        queue.submit([encoder.finish()]);
+        device.poll(wgpu::PollType::wait_indefinitely()).map_err(CaseError::from)?;
+        let time_ms = 1000.0 * clock.elapsed().as_secs_f64();
+        if self.shadows.buffer(BufferKind::Counters).is_some() {
+            self.shadows.wait_for_counters(device).map_err(CaseError::from)?;
+        }
+        self.gpu.check().map_err(CaseError::from)?;
+        Ok(time_ms)
+    }
+
+    /// Draws until there was room for everything.
+    pub fn complete(&mut self, light: &Light) -> Result<(), Ended> {
+        for _ in 0..REPEATS_MAX {
+            self.draw(light)?;
+            if self.shadows.is_complete() {
+                return Ok(());
+            }
+        }
+        Err(CaseError::Incomplete(REPEATS_MAX).into())
+    }
+
+    /// The median time of a few frames. Between them others are drawn, since a frame like the one before is not.
+    pub fn time_ms(&mut self, light: &Light) -> Result<Option<f64>, Ended> {
+        let other = with_another_depth(light);
+        if other.validate().is_err() {
+            return Ok(None);
+        }
+        let mut times = Vec::new();
+        for _ in 0..TIMED_FRAMES {
+            self.draw(&other)?;
+            times.push(self.draw(light)?);
+        }
+        Ok(Some(Timing::from_samples(&times).map_err(CaseError::from)?.median_ms))
+    }
+
+    pub fn read(&self) -> Result<DeviceOutputs, CaseError> {
+        let Counters { silhouette_edges, quads, corners, .. } = self.shadows.stats().counters.unwrap_or_default();
+        let quads: Vec<Quad> = self.records(BufferKind::Quads, Some(quads))?;
+        let corners: Vec<Corner> = self.records(BufferKind::Corners, Some(corners))?;
+        let caster_lights: Vec<CasterLight> = self.records(BufferKind::CasterLights, None)?;
+        let light_view: Vec<LightView> = self.records(BufferKind::LightView, None)?;
+        let receiver_view: Vec<ReceiverView> = self.records(BufferKind::ReceiverView, None)?;
+        let of_records = non_finite(&quads)
+            + non_finite(&corners)
+            + non_finite(&caster_lights)
+            + non_finite(&light_view)
+            + non_finite(&receiver_view);
+        Ok(DeviceOutputs {
+            lit: self.shadows.buffer(BufferKind::Lit).map(|_| self.records(BufferKind::Lit, None)).transpose()?,
+            silhouettes: self.records(BufferKind::Silhouettes, Some(silhouette_edges))?,
+            non_finite: of_records + self.non_finite_texels()?,
+            quads,
+            corners,
+        })
+    }
+
+    /// The first records of a buffer, or all; none where the frame has no such buffer.
+    fn records<T: AnyBitPattern + NoUninit>(&self, kind: BufferKind, count: Option<u32>) -> Result<Vec<T>, CaseError> {
+        let Some(buffer) = self.shadows.buffer(kind) else { return Ok(Vec::new()) };
+        let size = size_of::<T>() as u64;
+        let count = count.map_or(buffer.size() / size, u64::from);
+        Ok(pod_collect_to_vec(&read_buffer(self.gpu, buffer, count * size)?))
+    }
+
+    fn non_finite_texels(&self) -> Result<u64, CaseError> {
+        let maps = self.shadows.maps();
+        let textures = [
+            maps.shadow_depth,
+            maps.shadow_hardware_depth,
+            maps.moments,
+            maps.smoothie_depth,
+            maps.smoothie_alpha,
+            maps.smoothie_buffer,
+        ];
+        let mut count = 0;
+        for texture in textures.into_iter().flatten() {
+            let bytes_per_texel = bytes_per_texel(texture.format());
+            count += non_finite(&floats(texture.format(), &read_texture(self.gpu, texture, bytes_per_texel)?));
+        }
+        Ok(count)
+    }
+}
+
+fn bytes_per_texel(format: wgpu::TextureFormat) -> u32 {
+    // A depth buffer has no size of a block as a whole, and the aspect that it has.
+    format.block_copy_size(None).or(format.block_copy_size(Some(wgpu::TextureAspect::DepthOnly))).unwrap_or(4)
+}
+
+fn floats(format: wgpu::TextureFormat, bytes: &[u8]) -> Vec<f32> {
+    let is_half = matches!(
+        format,
+        wgpu::TextureFormat::R16Float | wgpu::TextureFormat::Rg16Float | wgpu::TextureFormat::Rgba16Float
+    );
+    if is_half {
+        pod_collect_to_vec::<u8, f16>(bytes).into_iter().map(f32::from).collect()
+    } else {
+        pod_collect_to_vec(cast_slice::<u8, u8>(bytes))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_planted_nan_is_found_in_texels_of_both_sizes() {
+        let halves = [f16::ONE, f16::NAN, f16::INFINITY, f16::MAX];
+        assert_eq!(non_finite(&floats(wgpu::TextureFormat::Rg16Float, cast_slice(&halves))), 2);
+        let singles = [1.0, f32::NAN, f32::MAX];
+        assert_eq!(non_finite(&floats(wgpu::TextureFormat::R32Float, cast_slice(&singles))), 1);
+        assert_eq!(bytes_per_texel(wgpu::TextureFormat::Depth32Float), 4);
+        assert_eq!(bytes_per_texel(wgpu::TextureFormat::Rg32Float), 8);
+    }
+}

@@ -1,0 +1,78 @@
+//! Why a run stops, and what the library may refuse.
+
+use contrejour_gpu::{AddMeshError, CountersError, NewShadowsError, PrepareError};
+use contrejour_mesh::TopologyError;
+use contrejour_plan::LightError;
+use contrejour_render::{DeviceFault, ReadError};
+
+use super::family::UnknownFamily;
+use super::files::WriteError;
+use crate::metrics::MetricError;
+
+/// Why a run stops.
+#[derive(Debug, thiserror::Error)]
+pub enum StabilityError {
+    /// No family has a name that was asked for.
+    #[error(transparent)]
+    Family(#[from] UnknownFamily),
+    /// The device failed.
+    #[error("{family} at {parameter}: {source}")]
+    Device {
+        /// Name of the family.
+        family: &'static str,
+        /// The case.
+        parameter: String,
+        /// What is wrong.
+        source: CaseError,
+    },
+    /// The results can't be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// Why a case has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// The counters did not come back.
+    #[error(transparent)]
+    Counters(#[from] CountersError),
+    /// Something could not be read back.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Waiting for the device failed.
+    #[error("waiting for the graphics device failed")]
+    Poll(#[from] wgpu::PollError),
+    /// The device failed.
+    #[error(transparent)]
+    Fault(#[from] DeviceFault),
+    /// The lists never became large enough.
+    #[error("the frame still misses quads or corners after {0} repetitions")]
+    Incomplete(usize),
+    /// The clock went wrong.
+    #[error(transparent)]
+    Metric(#[from] MetricError),
+}
+
+/// What the library refuses, with a type and a remedy: a result, and no failure.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Refusal {
+    #[error(transparent)]
+    Topology(#[from] TopologyError),
+    #[error(transparent)]
+    NewShadows(#[from] NewShadowsError),
+    #[error(transparent)]
+    AddMesh(#[from] AddMeshError),
+    #[error(transparent)]
+    Light(#[from] LightError),
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+}
+
+/// What ends a case before it has a result.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Ended {
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    #[error(transparent)]
+    Failed(#[from] CaseError),
+}

@@ -1,0 +1,177 @@
+//! A case through the whole pipeline, and what the checks say.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use contrejour_layout::{BLOCK_SIZE, Corner, LIT_WORDS_PER_BLOCK, Quad, SilhouetteEdge};
+use contrejour_oracle::{GapSearch, OracleTopology, blocker_image, open_vertices, outline_gaps};
+use contrejour_plan::{position_scale, views};
+use contrejour_render::Gpu;
+use glam::{DVec2, Mat4, Vec3};
+
+use super::case::Case;
+use super::checks::{FaceSigns, WidthDefinition, bare_lit, non_finite, wrong_edges, wrong_signs};
+use super::device::{DeviceFrame, DeviceMesh, DeviceOutputs};
+use super::error::{CaseError, Ended, Refusal};
+use super::family::Family;
+use super::row::{FacingTimes, Row};
+use crate::mirror_frame::MirrorFrame;
+
+/// Faces up to which the silhouette itself is compared, and not only its faces and that it is closed: the oracle keeps
+/// a tree of all edges.
+const ORACLE_FACES_MAX: usize = 50_000;
+
+/// Faces that are classified at least for one time, so that the clock can tell.
+const TIMED_FACES: usize = 50_000;
+
+/// What a case comes to. What the library refuses is a row too.
+pub(super) fn measure(gpu: &Gpu, family: &Family, case: &Case) -> Result<Row, CaseError> {
+    let mut row = Row {
+        family: family.name,
+        parameter: case.parameter.clone(),
+        at: case.at,
+        degrades: case.degrades.clone(),
+        ..Row::default()
+    };
+    match tried(gpu, case, &mut row) {
+        Ok(()) => Ok(row),
+        Err(Ended::Refused(refusal)) => Ok(Row { degrades: refusal.to_string(), ..row }),
+        Err(Ended::Failed(error)) => Err(error),
+    }
+}
+
+fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
+    let meshes = case.meshes.iter().map(DeviceMesh::new).collect::<Result<Vec<_>, _>>().map_err(Refusal::from)?;
+    let view = views(&case.light).map_err(Refusal::from)?[0];
+    let mut device = DeviceFrame::new(gpu, &meshes, &case.settings)?;
+    device.complete(&case.light)?;
+    row.time_ms = device.time_ms(&case.light)?;
+    let found = device.read()?;
+    let casting = device.shadows.plan().map_or(&[][..], |plan| &plan.casting);
+
+    let placed: Vec<_> = meshes.iter().map(|mesh| (&*mesh.topology, mesh.world_from_object)).collect();
+    let frame = MirrorFrame::new(&placed, &case.light, &case.settings).map_err(Refusal::from)?;
+    let twin = frame.run();
+
+    // Faces and silhouettes, caster by caster.
+    let (mut faces, mut wrong_f32, mut wrong, mut open) = (0, 0, 0, 0);
+    let mut first_lit_word = 0;
+    for &index in casting {
+        let (mesh, light) = (&*meshes[index].topology, &frame.caster_lights[index]);
+        let words = mesh.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize;
+        let exact = FaceSigns::exact(mesh, light);
+        let mut lit = vec![&twin.lit[frame.casters[index].first_lit_word as usize..]];
+        lit.extend(found.lit.as_ref().map(|lit| &lit[first_lit_word..]));
+        first_lit_word += words;
+        faces += mesh.faces.len() as u64;
+        wrong_f32 += wrong_signs(&exact, &[&bare_lit(mesh, light)]);
+        wrong += wrong_signs(&exact, &lit);
+
+        let of_caster = |edges: &[SilhouetteEdge]| -> Vec<SilhouetteEdge> {
+            edges.iter().filter(|edge| edge.caster as usize == index).copied().collect()
+        };
+        let mut lists = vec![of_caster(&twin.silhouettes)];
+        if found.lit.is_some() {
+            lists.push(of_caster(&found.silhouettes));
+        }
+        let source = &case.meshes[index];
+        let expected = (mesh.faces.len() <= ORACLE_FACES_MAX).then(|| {
+            OracleTopology::new(&source.positions, &source.triangles)
+                .silhouette(light.light_object.map(f32::from_bits), light.mirrored == 1)
+        });
+        for list in &lists {
+            open += open_vertices(&mesh.edges, list).len() as u64;
+            wrong += expected.as_ref().map_or(0, |expected| wrong_edges(&mesh.edges, expected, list));
+        }
+    }
+    row.faces_tested = Some(faces);
+    row.sign_errors_f32 = Some(wrong_f32);
+    row.sign_errors = Some(wrong);
+    row.open_cycles = Some(open);
+    row.facing = facing_times(&frame, &meshes);
+
+    // What is drawn.
+    row.non_finite = Some(found.non_finite + non_finite(&twin.quads) + non_finite(&twin.corners));
+    let drawn = [(&found.quads, &found.corners), (&twin.quads, &twin.corners)];
+    if let Some(definition) = WidthDefinition::new(&view, &case.settings) {
+        let errors = drawn.iter().filter_map(|(quads, corners)| definition.error(&meshes, quads, corners));
+        row.width_error = errors.reduce(f64::max);
+    }
+    if let Some(search) = &case.gap_search {
+        let blockers = blockers(&meshes, &frame);
+        let gaps = drawn.iter().map(|(quads, corners)| gaps(quads, corners, &blockers, search));
+        row.gaps = gaps.reduce(u64::max);
+    }
+    explain(row, &device, &meshes, &found);
+    Ok(())
+}
+
+fn gaps(quads: &[Quad], corners: &[Corner], blockers: &[[DVec2; 3]], search: &GapSearch) -> u64 {
+    outline_gaps(quads, corners, blockers, search).len() as u64
+}
+
+/// Images of all faces, by the very matrices that the stages get.
+fn blockers(meshes: &[DeviceMesh], frame: &MirrorFrame) -> Vec<[DVec2; 3]> {
+    let of_mesh = |(mesh, light): (&DeviceMesh, &contrejour_layout::CasterLight)| {
+        let topology = &mesh.topology;
+        let scale = position_scale(topology.bounds_min, topology.bounds_max);
+        let positions: Vec<_> = topology.positions.iter().map(|&position| scale * Vec3::from(position)).collect();
+        let faces: Vec<_> = topology.faces.iter().map(|face| [face.a, face.b, face.c]).collect();
+        blocker_image(&positions, &faces, &Mat4::from_cols_array(&light.light_clip_from_object))
+    };
+    meshes.iter().zip(&frame.caster_lights).flat_map(of_mesh).collect()
+}
+
+/// Adds what the library itself counts as left out.
+fn explain(row: &mut Row, device: &DeviceFrame, meshes: &[DeviceMesh], found: &DeviceOutputs) {
+    let stats = device.shadows.stats();
+    let casting = device.shadows.plan().map_or(0, |plan| plan.casting.len());
+    let reasons = [
+        (
+            stats.singular_casters > 0,
+            "the light has no place in the mesh's object space within 32-bit floats, so it casts nothing",
+        ),
+        (
+            stats.imageless_casters > 0,
+            "32-bit floats can't hold the view's clip space: the silhouette is found, no shadow is thrown",
+        ),
+        (
+            casting + (stats.singular_casters as usize) < meshes.len(),
+            "the mesh is outside of the light's frustum and casts nothing there",
+        ),
+        (found.lit.is_none() && casting > 0, "the light has no size, so its shadow is hard and has no silhouette"),
+    ];
+    for (_, reason) in reasons.into_iter().filter(|(applies, _)| *applies) {
+        if !row.degrades.is_empty() {
+            row.degrades.push_str("; ");
+        }
+        row.degrades.push_str(reason);
+    }
+}
+
+/// The same faces by a bare test and by the twins of the exact stages, taking turns; the best of three each. None where
+/// there is no face.
+fn facing_times(frame: &MirrorFrame, meshes: &[DeviceMesh]) -> Option<FacingTimes> {
+    let faces: usize = meshes.iter().map(|mesh| mesh.topology.faces.len()).sum();
+    if faces == 0 {
+        return None;
+    }
+    let runs = TIMED_FACES.div_ceil(faces);
+    let ns_per_face = |run: &dyn Fn()| {
+        let clock = Instant::now();
+        (0..runs).for_each(|_| run());
+        clock.elapsed().as_secs_f64() * 1e9 / (runs * faces) as f64
+    };
+    let bare = || {
+        for (mesh, light) in meshes.iter().zip(&frame.caster_lights) {
+            black_box(bare_lit(&mesh.topology, light));
+        }
+    };
+    let exact = || {
+        black_box(frame.lit());
+    };
+    let best = (0..3)
+        .map(|_| [ns_per_face(&bare), ns_per_face(&exact)])
+        .reduce(|best, times| [best[0].min(times[0]), best[1].min(times[1])]);
+    best.map(|[bare_ns, exact_ns]| FacingTimes { bare_ns, exact_ns })
+}

@@ -1,0 +1,101 @@
+//! What a case came to.
+
+use serde::Serialize;
+
+/// Heads of the table, in its order.
+pub const COLUMNS: [&str; 12] = [
+    "family",
+    "parameter",
+    "faces_tested",
+    "sign_errors_f32",
+    "sign_errors",
+    "open_cycles",
+    "gaps",
+    "non_finite",
+    "width_error",
+    "visibility_error",
+    "time_ms",
+    "degrades",
+];
+
+/// One case. What a family can't say is `None`, an empty cell. The serialised fields are [`COLUMNS`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Row {
+    /// Name of the family.
+    pub family: &'static str,
+    /// What is varied: its value, and what kind of light.
+    pub parameter: String,
+    /// Faces whose sign was compared with exact arithmetic.
+    pub faces_tested: Option<u64>,
+    /// Faces that a bare test in 32-bit floats takes for lit where they are not, or the other way round.
+    pub sign_errors_f32: Option<u64>,
+    /// Faces whose sign is wrong on the device or in its twin, and silhouette edges that either lost, invented or gave
+    /// other faces.
+    pub sign_errors: Option<u64>,
+    /// Vertices at which the silhouette of the device or of its twin is no cycle.
+    pub open_cycles: Option<u64>,
+    /// Points beside outline vertices that neither a blocker nor a smoothie covers, of the device or of its twin.
+    pub gaps: Option<u64>,
+    /// Numbers that are infinite or none, in every float of the buffers and texels that the frame leaves and in what the
+    /// twin leaves.
+    pub non_finite: Option<u64>,
+    /// The largest difference between a smoothie's width and its definition, as a share of the defined width.
+    pub width_error: Option<f64>,
+    /// RMSE of visibility against the ray-traced truth.
+    pub visibility_error: Option<f64>,
+    /// From submission of a whole frame to its completion, median of a few. Unit: milliseconds.
+    pub time_ms: Option<f64>,
+    /// Why the definition does not hold here, or what the library refused; empty where neither.
+    pub degrades: String,
+    /// Where the case is along the axis of its family's plots.
+    #[serde(skip)]
+    pub at: f64,
+    /// How long it takes to find the lit faces.
+    #[serde(skip)]
+    pub facing: Option<FacingTimes>,
+}
+
+/// Times to find the lit faces of a case on one core, by a bare test in 32-bit floats and by the twins of the stages.
+/// Unit: nanoseconds a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacingTimes {
+    /// The bare test.
+    pub bare_ns: f64,
+    /// The exact one.
+    pub exact_ns: f64,
+}
+
+impl Row {
+    /// What must never be: sign errors, open cycles, gaps and numbers that are not finite.
+    pub fn faults(&self) -> u64 {
+        [self.sign_errors, self.open_cycles, self.gaps, self.non_finite].into_iter().flatten().sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fields_are_the_columns() {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.serialize(Row { gaps: Some(3), ..Row::default() }).expect("memory can be written to");
+        let text = String::from_utf8(writer.into_inner().expect("it is flushed")).expect("it is text");
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines, [COLUMNS.join(",").as_str(), ",,,,,,3,,,,,"]);
+    }
+
+    #[test]
+    fn each_kind_of_fault_counts_and_the_bare_test_does_not() {
+        let count = Some(2);
+        for fault in [
+            Row { sign_errors: count, ..Row::default() },
+            Row { open_cycles: count, ..Row::default() },
+            Row { gaps: count, ..Row::default() },
+            Row { non_finite: count, ..Row::default() },
+        ] {
+            assert_eq!(fault.faults(), 2);
+        }
+        assert_eq!(Row { sign_errors_f32: count, ..Row::default() }.faults(), 0);
+    }
+}
