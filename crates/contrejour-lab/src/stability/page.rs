@@ -170,7 +170,7 @@ fn table_row(row: &Row) -> Markup {
             }
         }
     };
-    let small = |value: Option<f64>| number(value.map(|value| exponent(value)), false);
+    let small = |value: Option<f64>| number(value.map(exponent), false);
     html! {
         tr {
             th scope="row" { (row.parameter) }
