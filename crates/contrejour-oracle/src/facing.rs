@@ -17,7 +17,7 @@ pub fn lit(a: [f32; 3], b: [f32; 3], c: [f32; 3], light: [f32; 4], mirrored: boo
         // orient3d is det(a - d, b - d, c - d) = -det(b - a, c - a, d - a).
         -sign(robust::orient3d(coord(a), coord(b), coord(c), coord([x, y, z])))
     } else {
-        direction_determinant(a, b, c, [x, y, z])
+        determinant(a, b, c, [x, y, z].map(integer))
     };
     if mirrored { determinant < 0 } else { determinant > 0 }
 }
@@ -26,10 +26,10 @@ fn sign(value: f64) -> i32 {
     i32::from(value > 0.0) - i32::from(value < 0.0)
 }
 
-/// The sign of `det(b - a, c - a, direction)`.
-fn direction_determinant(a: [f32; 3], b: [f32; 3], c: [f32; 3], direction: [f32; 3]) -> i32 {
+/// The sign of `det(b - a, c - a, towards_light)`.
+fn determinant(a: [f32; 3], b: [f32; 3], c: [f32; 3], towards_light: [BigInt; 3]) -> i32 {
     let [x, y, z] = cross(&difference(b, a), &difference(c, a));
-    let [dx, dy, dz] = direction.map(integer);
+    let [dx, dy, dz] = towards_light;
     match (x * dx + y * dy + z * dz).sign() {
         Sign::Minus => -1,
         Sign::NoSign => 0,
@@ -67,6 +67,8 @@ fn integer(value: f32) -> BigInt {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     const A: [f32; 3] = [0.0, 0.0, 0.0];
@@ -101,15 +103,32 @@ mod tests {
         }
     }
 
-    #[test]
-    fn robust_and_big_integers_agree_where_both_apply() {
-        // A direction L is the point a + L where that sum is exact.
-        let corners = [[1.0, 2.0, 3.0], [1.5, -2.0, 3.25], [-7.0, 2.0, 0.125]];
-        for direction in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.5], [3.0, 1.0, -2.0], [-6.5, 0.0, 0.25]] {
-            let [a, b, c] = corners;
-            let point = [a[0] + direction[0], a[1] + direction[1], a[2] + direction[2], 1.0];
-            let [x, y, z] = direction;
-            assert_eq!(lit(a, b, c, point, false), lit(a, b, c, [x, y, z, 0.0], false));
+    fn coordinate() -> impl Strategy<Value = f32> {
+        let any_finite = any::<u32>().prop_map(f32::from_bits).prop_filter("finite", |value| value.is_finite());
+        prop_oneof![any_finite, -1.0_f32..1.0, (-3..4_i8).prop_map(f32::from), Just(f32::from_bits(1)), Just(f32::MAX)]
+    }
+
+    fn point() -> impl Strategy<Value = [f32; 3]> {
+        [coordinate(), coordinate(), coordinate()]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(4000) })]
+
+        #[test]
+        fn expansions_and_big_integers_agree_on_points(
+            [a, b, c, anywhere] in [point(), point(), point(), point()],
+            in_plane in prop::option::weighted(0.8, (-2..3_i8, -2..3_i8)),
+        ) {
+            let light = in_plane.map_or(anywhere, |(s, t)| [0, 1, 2].map(|axis| {
+                let [a, b, c] = [a, b, c].map(|corner| f64::from(corner[axis]));
+                let place = (a + f64::from(s) * (b - a) + f64::from(t) * (c - a)) as f32;
+                if place.is_finite() { place } else { 0.0 }
+            }));
+            let [x, y, z] = light;
+            let expected = determinant(a, b, c, difference(light, a));
+            prop_assert_eq!(lit(a, b, c, [x, y, z, 1.0], false), expected > 0);
+            prop_assert_eq!(lit(a, b, c, [x, y, z, 1.0], true), expected < 0);
         }
     }
 

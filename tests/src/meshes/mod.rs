@@ -5,6 +5,7 @@ mod tiny;
 
 use std::sync::Arc;
 
+use bytemuck::cast_slice;
 use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh, TriangleMesh};
 use contrejour_scene::shapes::Shape;
 use glam::{DMat4, DVec3};
@@ -48,9 +49,13 @@ impl TestMesh {
 
     fn of_file(name: &str, file: &MeshFile) -> Result<Self, String> {
         let build = |mesh: &TriangleMesh| {
-            TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())
-                .map(|topology| (Arc::new(topology), Arc::from(mesh.triangles.as_slice())))
-                .map_err(|error| format!("{name}: {error}"))
+            let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())
+                .map_err(|error| format!("{name}: {error}"))?;
+            // Oracles are asked about the positions that the topology carries.
+            if cast_slice::<_, u32>(&topology.positions) != cast_slice::<_, u32>(&mesh.positions) {
+                return Err(format!("{name}: building moves vertices"));
+            }
+            Ok((Arc::new(topology), Arc::from(mesh.triangles.as_slice())))
         };
         let built = file.meshes.iter().map(build).collect::<Result<Vec<_>, _>>()?;
         let parts = file
