@@ -36,6 +36,10 @@ pub fn tiny() -> Vec<TestMesh> {
         soup("soup of tiny numbers", 100, |random| (1e-40 * random.signed()) as f32),
         soup("soup of large numbers", 100, |random| (1e30 * random.signed()) as f32),
         soup("soup of any finite numbers", 200, Random::any_finite),
+        soup("soup of numbers 2^250 apart", 100, |random| {
+            let exponent = if random.below(2) == 0 { 125 } else { -125 };
+            (random.signed() * 2.0_f64.powi(exponent)) as f32
+        }),
     ]
 }
 
