@@ -19,6 +19,9 @@ pub struct Arguments {
 const AFTER_HELP: &str =
     "Exit status: 0 when done, 2 with one line on stderr when something is wrong; 1 when `stability` found a fault.";
 
+/// What every frame cost is kept until all are drawn.
+const MAX_FRAMES: i64 = 100_000;
+
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Draw a picture with soft shadows
@@ -54,8 +57,8 @@ pub struct RenderArguments {
     #[arg(long)]
     pub json: bool,
 
-    /// Move the light around the scene in N frames; without --output no picture is read back
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Move the light around the scene in N frames, at most 100000; without --output no picture is read back
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_FRAMES))]
     pub orbit: Option<u32>,
 
     /// Pixels of the picture [default: the scene's]
@@ -176,6 +179,7 @@ mod tests {
         for line in [
             "contrejour",
             "contrejour render --orbit 0",
+            "contrejour render --orbit 100001",
             "contrejour render --map-size 0",
             "contrejour render --size 0x100",
             "contrejour render --technique magic",

@@ -30,18 +30,22 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return told_by_clap(&error),
     };
-    let result: Result<ExitCode, Failure> = match arguments.command {
+    let result = output::report_large_files().and_then(|()| run(arguments.command));
+    result.unwrap_or_else(|error| {
+        eprintln!("contrejour: {}", one_line(error.as_ref()));
+        ExitCode::from(2)
+    })
+}
+
+fn run(command: Command) -> Result<ExitCode, Failure> {
+    match command {
         Command::Render(arguments) => done(render::run(&arguments)),
         Command::Silhouette(arguments) => done(silhouette::run(&arguments)),
         Command::Inspect(arguments) => done(inspect::run(&arguments)),
         Command::Plan(arguments) => done(plan::run(&arguments)),
         Command::Report(arguments) => done(report::run(&arguments)),
         Command::Stability(arguments) => stability::run(&arguments),
-    };
-    result.unwrap_or_else(|error| {
-        eprintln!("contrejour: {}", one_line(error.as_ref()));
-        ExitCode::from(2)
-    })
+    }
 }
 
 /// Most commands either do what they are told or fail.

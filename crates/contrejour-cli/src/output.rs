@@ -7,12 +7,25 @@ use contrejour_render::save_file;
 
 use crate::failure::Failure;
 
+/// Makes a file that grows beyond what the user may write (`ulimit -f`) an error of the write. Otherwise the system would
+/// end the program, and leave unfinished files behind.
+pub fn report_large_files() -> Result<(), Failure> {
+    #[cfg(unix)]
+    signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Default::default())?;
+    Ok(())
+}
+
+/// Standard output takes no more.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot print: {0}; check that what standard output leads to has room")]
+struct PrintError(#[source] io::Error);
+
 /// Prints text and ends the line. A reader that has gone away, such as `head`, is no error.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match writeln!(stdout, "{}", text.trim_end_matches('\n')).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        Err(error) => Err(Box::new(error)),
+        Err(error) => Err(Box::new(PrintError(error))),
         Ok(()) => Ok(()),
     }
 }

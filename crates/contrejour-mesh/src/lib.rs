@@ -2,9 +2,11 @@
 
 mod load;
 mod normals;
+mod read_file;
 mod topology;
 mod triangle_mesh;
 
 pub use load::*;
+pub use read_file::{ReadFileError, read_file};
 pub use topology::*;
 pub use triangle_mesh::*;

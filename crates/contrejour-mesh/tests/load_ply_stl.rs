@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use contrejour_mesh::{LoadError, TriangleMesh, load, load_ply, load_stl};
+use contrejour_mesh::{LoadError, ReadFileError, TriangleMesh, load, load_ply, load_stl};
 
 fn ply(bytes: &[u8]) -> TriangleMesh {
     let file = load_ply(bytes, Path::new("literal.ply")).unwrap_or_else(|error| panic!("{error}"));
@@ -145,7 +145,7 @@ fn what_is_no_mesh_file_is_refused_with_a_remedy() {
     let error = |name: &str| load(&inside(name)).expect_err(name);
     assert!(matches!(error("empty.stl"), LoadError::Empty { .. }));
     assert!(matches!(error("text.txt"), LoadError::UnknownFormat { .. }));
-    assert!(matches!(error("folder.ply"), LoadError::Directory { .. }));
-    assert!(matches!(error("missing.obj"), LoadError::Read { .. }));
-    assert!(matches!(load(folder.path()), Err(LoadError::Directory { .. })));
+    assert!(matches!(error("folder.ply"), LoadError::File(ReadFileError::Directory { .. })));
+    assert!(matches!(error("missing.obj"), LoadError::File(ReadFileError::System { .. })));
+    assert!(matches!(load(folder.path()), Err(LoadError::File(ReadFileError::Directory { .. }))));
 }

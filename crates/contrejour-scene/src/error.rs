@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use contrejour_mesh::LoadError;
+use contrejour_mesh::{LoadError, ReadFileError};
 use contrejour_plan::SettingsError;
 
 use crate::Scene;
@@ -11,13 +11,16 @@ use crate::shapes::ShapeError;
 /// Why there is no scene.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    /// The scene file cannot be read.
-    #[error("cannot read the scene {path}: {error}; check the path and that the file is UTF-8 text", path = path.display())]
-    Read {
+    /// The scene file is not read.
+    #[error(transparent)]
+    File(#[from] ReadFileError),
+    /// The scene file is no text.
+    #[error("{path}: byte {byte} is not UTF-8 text; save the scene as UTF-8", path = path.display())]
+    NotText {
         /// The file.
         path: PathBuf,
-        /// What the system says.
-        error: std::io::Error,
+        /// The first byte that is none, from 0.
+        byte: usize,
     },
     /// Something in the scene file is wrong.
     #[error("{place}: {problem}")]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use contrejour_mesh::{MeshFile, TriangleMesh};
+use contrejour_mesh::{MeshFile, TriangleMesh, read_file};
 use contrejour_plan::{Light, ShadowSettings};
 use glam::{DMat4, DVec3};
 
@@ -40,6 +40,9 @@ impl Scene {
     /// Most meshes of a scene.
     pub const MAX_MESHES: usize = 65_536;
 
+    /// The most bytes of a scene file: 16 MiB.
+    pub const MAX_FILE_BYTES: u64 = 1 << 24;
+
     /// Size of a picture where the scene does not say. Unit: pixels.
     pub const DEFAULT_SIZE: [u32; 2] = [1280, 720];
 
@@ -62,7 +65,11 @@ impl Scene {
             }
             return Ok(scene);
         }
-        let text = read_text(path).map_err(|error| SceneError::Read { path: path.to_owned(), error })?;
+        let bytes = read_file(path, Self::MAX_FILE_BYTES)?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let byte = error.utf8_error().valid_up_to();
+            SceneError::NotText { path: path.to_owned(), byte }
+        })?;
         Self::from_toml(&text, path.parent().unwrap_or(Path::new("")), &path.display().to_string())
     }
 
@@ -104,14 +111,6 @@ impl Scene {
     pub fn aspect(&self) -> f64 {
         f64::from(self.size[0]) / f64::from(self.size[1])
     }
-}
-
-/// The text of a regular file: a pipe may never end.
-fn read_text(path: &Path) -> std::io::Result<String> {
-    if std::fs::metadata(path)?.is_file() {
-        return std::fs::read_to_string(path);
-    }
-    Err(std::io::Error::other("is no regular file"))
 }
 
 /// A perspective camera.

@@ -4,8 +4,11 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use contrejour_mesh::{ReadFileError, read_file};
 use image::ImageFormat;
 use image::imageops::FilterType;
+
+use super::files::MAX_FILE_BYTES;
 
 /// Pictures are scaled down to this width in pixels, so that a page with hundreds of them stays small.
 const WIDTH_MAX: u32 = 320;
@@ -13,7 +16,10 @@ const WIDTH_MAX: u32 = 320;
 /// Why a picture is not in the page.
 #[derive(Debug, thiserror::Error)]
 pub enum EmbedError {
-    /// The file can't be read as a picture.
+    /// The file can't be read.
+    #[error(transparent)]
+    File(#[from] ReadFileError),
+    /// The file is no picture.
     #[error(
         "the picture {path} can't be read: {error}; make the report again, or take the picture out of its JSON",
         path = path.display()
@@ -45,7 +51,8 @@ pub(super) struct Embedded {
 /// Reads a PNG file below a folder.
 pub(super) fn embed(folder: &Path, relative: &str) -> Result<Embedded, EmbedError> {
     let path = folder.join(relative);
-    let mut picture = match image::open(&path) {
+    let bytes = read_file(&path, MAX_FILE_BYTES)?;
+    let mut picture = match image::load_from_memory_with_format(&bytes, ImageFormat::Png) {
         Ok(picture) => picture,
         Err(error) => return Err(EmbedError::Read { path, error }),
     };

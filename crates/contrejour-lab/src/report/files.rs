@@ -1,7 +1,9 @@
 //! A report's files in its folder.
 
-use std::io;
 use std::path::{Path, PathBuf};
+
+use contrejour_mesh::{ReadFileError, read_file};
+use contrejour_render::{SaveError, save_file};
 
 use super::json::{FromJsonError, ToJsonError};
 use super::page::PageError;
@@ -16,20 +18,15 @@ pub const PAGE_FILE: &str = "index.html";
 /// Error-against-time plots, a file a scene.
 pub const PLOTS_FOLDER: &str = "plots";
 
+/// The most bytes of any file that a report is read from: 1 GiB.
+pub(crate) const MAX_FILE_BYTES: u64 = 1 << 30;
+
 /// Why a report is not written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// A file or folder can't be written.
-    #[error(
-        "cannot write {path}: {error}; check that the folder can be written to and has room",
-        path = path.display()
-    )]
-    File {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system says.
-        error: io::Error,
-    },
+    #[error(transparent)]
+    Save(#[from] SaveError),
     /// There is no JSON.
     #[error(transparent)]
     Json(#[from] ToJsonError),
@@ -53,13 +50,8 @@ pub enum WriteError {
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file can't be read.
-    #[error("cannot read {path}: {error}; give the folder of a report", path = path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        error: io::Error,
-    },
+    #[error("{0}; give the folder of a report")]
+    File(#[from] ReadFileError),
     /// The file is no report.
     #[error("{path}: {error}", path = path.display())]
     Json {
@@ -79,20 +71,18 @@ impl Report {
     ///
     /// What can't be written; a figure that is no number; a picture that is missing.
     pub fn write(&self, folder: &Path) -> Result<(), WriteError> {
-        create_folder(folder)?;
         // First, so that what was measured is safe whatever happens to the rest.
-        replace(&folder.join(JSON_FILE), self.to_json()?.as_bytes())?;
-        replace(&folder.join(CSV_FILE), &self.to_csv()?)?;
+        save_file(self.to_json()?.as_bytes(), &folder.join(JSON_FILE))?;
+        save_file(&self.to_csv()?, &folder.join(CSV_FILE))?;
         let plots = folder.join(PLOTS_FOLDER);
-        create_folder(&plots)?;
         for (number, scene) in (1..).zip(self.scenes()) {
             if let Some(plot) = self.error_plot(scene) {
                 let drawn = plot.to_svg(&format!("Error against time: {scene}"), PlotUse::File);
                 let svg = drawn.map_err(|error| WriteError::Plot { scene: scene.to_owned(), error })?;
-                replace(&plots.join(plot_file(number, scene)), svg.as_bytes())?;
+                save_file(svg.as_bytes(), &plots.join(plot_file(number, scene)))?;
             }
         }
-        replace(&folder.join(PAGE_FILE), self.to_page(folder)?.as_bytes())
+        Ok(save_file(self.to_page(folder)?.as_bytes(), &folder.join(PAGE_FILE))?)
     }
 
     /// Reads a report from the JSON in its folder.
@@ -102,10 +92,9 @@ impl Report {
     /// A file that can't be read or is no report.
     pub fn read(folder: &Path) -> Result<Self, ReadError> {
         let path = folder.join(JSON_FILE);
-        match std::fs::read_to_string(&path) {
-            Ok(text) => Self::from_json(&text).map_err(|error| ReadError::Json { path, error }),
-            Err(error) => Err(ReadError::File { path, error }),
-        }
+        let text = read_file(&path, MAX_FILE_BYTES)?;
+        // What is no text is no JSON either.
+        Self::from_json(&String::from_utf8_lossy(&text)).map_err(|error| ReadError::Json { path, error })
     }
 }
 
@@ -113,18 +102,6 @@ impl Report {
 fn plot_file(number: usize, scene: &str) -> String {
     let plain: String = scene.chars().map(|char| if char.is_alphanumeric() { char } else { '-' }).collect();
     format!("{number:02}-{plain}.svg")
-}
-
-fn create_folder(path: &Path) -> Result<(), WriteError> {
-    std::fs::create_dir_all(path).map_err(|error| WriteError::File { path: path.to_owned(), error })
-}
-
-/// Writes a file under another name and renames it.
-fn replace(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    let written = std::fs::write(&part, contents).and_then(|()| std::fs::rename(&part, path));
-    written.map_err(|error| WriteError::File { path: path.to_owned(), error })
 }
 
 #[cfg(test)]
@@ -168,7 +145,8 @@ mod tests {
 
         let in_the_way = folder.path().join("file");
         std::fs::write(&in_the_way, "").expect("it can be written");
-        assert!(matches!(report().write(&in_the_way), Err(WriteError::File { path, .. }) if path == in_the_way));
+        let refused = report().write(&in_the_way);
+        assert!(matches!(refused, Err(WriteError::Save(SaveError::Folder { path, .. })) if path == in_the_way));
     }
 
     #[test]

@@ -24,6 +24,7 @@ pub use colours::{difference_colour, difference_picture, visibility_picture};
 pub use cost::{Cost, CostRatio, StageCost, StageRatio};
 pub use embed::EmbedError;
 pub use figure::{Axis, Body, Figure, GridRow, Picture, PictureGrid, Plot, Scale, Series, Stroke, Table};
+pub(crate) use files::MAX_FILE_BYTES;
 pub use files::{CSV_FILE, JSON_FILE, PAGE_FILE, PLOTS_FOLDER, ReadError, WriteError};
 pub use findings::{Findings, SceneFindings};
 pub use json::{FromJsonError, ToJsonError};

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use contrejour_mesh::TopologyError;
+use contrejour_mesh::{ReadFileError, TopologyError};
 use contrejour_plan::LightError;
 use contrejour_render::{ComposeError, DrawError, NewContestantError, NewJudgeError, ReadError, SaveError};
 use contrejour_scene::SceneError;
@@ -59,7 +59,10 @@ pub enum RunError {
         /// What is wrong.
         error: serde_json::Error,
     },
-    /// A file or folder of an earlier run cannot be read or removed.
+    /// A file of an earlier run cannot be read.
+    #[error(transparent)]
+    File(#[from] ReadFileError),
+    /// A file or folder of an earlier run cannot be removed.
     #[error("{path}: {error}; give another folder with -o", path = path.display())]
     Folder {
         /// The file or folder.

@@ -4,13 +4,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use contrejour_mesh::read_file;
 use contrejour_render::save_file;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::error::RunError;
 use super::manifest::{Manifest, Work};
-use crate::report::{Body, Figure, Group};
+use crate::report::{Body, Figure, Group, MAX_FILE_BYTES};
 
 /// What the run is to measure.
 const MANIFEST_FILE: &str = "run.json";
@@ -105,10 +106,10 @@ impl RunFolder {
 
     fn read<T: DeserializeOwned>(&self, relative: &str) -> Result<Option<T>, RunError> {
         let path = self.path(relative);
-        match fs::read(&path) {
+        match read_file(&path, MAX_FILE_BYTES) {
             Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(|error| RunError::Damaged { path, error }),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(RunError::Folder { path, error }),
+            Err(error) if error.is_not_found() => Ok(None),
+            Err(error) => Err(error.into()),
         }
     }
 

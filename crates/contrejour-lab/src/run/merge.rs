@@ -4,10 +4,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use contrejour_mesh::{ReadFileError, read_file};
+use contrejour_render::{SaveError, save_file};
+
 use super::error::RunError;
 use super::folder::{PICTURES_FOLDER, RunFolder};
 use super::manifest::{Manifest, Work};
-use crate::report::{Figure, Group, ReadError, Report, WriteError};
+use crate::report::{Figure, Group, MAX_FILE_BYTES, ReadError, Report, WriteError};
 
 /// Why there is no merged report.
 #[derive(Debug, thiserror::Error)]
@@ -76,10 +79,16 @@ pub enum MergeError {
     /// A shard's report cannot be read.
     #[error(transparent)]
     Report(#[from] ReadError),
-    /// A picture cannot be copied.
-    #[error("{path}: {error}; check that it can be read and that the output has room", path = path.display())]
-    Copy {
-        /// The file or folder.
+    /// A picture cannot be read.
+    #[error(transparent)]
+    File(#[from] ReadFileError),
+    /// A picture cannot be written.
+    #[error(transparent)]
+    Save(#[from] SaveError),
+    /// A folder of pictures cannot be read.
+    #[error("{path}: {error}; check that it is a folder that can be read", path = path.display())]
+    Folder {
+        /// The folder.
         path: PathBuf,
         /// What the system says.
         error: io::Error,
@@ -159,18 +168,14 @@ fn finished(folder: &Path, work: &Work) -> Result<Group, MergeError> {
 /// Copies a shard's pictures beside the report that will show them.
 fn copy_pictures(from: &Path, output: &Path) -> Result<(), MergeError> {
     let [from, to] = [from, output].map(|folder| folder.join(PICTURES_FOLDER));
-    let at = |path: &Path| {
-        let path = path.to_owned();
-        move |error| MergeError::Copy { path, error }
-    };
-    fs::create_dir_all(&to).map_err(at(&to))?;
+    let unreadable = |error| MergeError::Folder { path: from.clone(), error };
     if !from.exists() {
         return Ok(());
     }
-    for entry in fs::read_dir(&from).map_err(at(&from))? {
-        let picture = entry.map_err(at(&from))?.path();
+    for entry in fs::read_dir(&from).map_err(unreadable)? {
+        let picture = entry.map_err(unreadable)?.path();
         if let Some(name) = picture.file_name().filter(|_| picture.is_file() && from != to) {
-            fs::copy(&picture, to.join(name)).map_err(at(&picture))?;
+            save_file(&read_file(&picture, MAX_FILE_BYTES)?, &to.join(name))?;
         }
     }
     Ok(())

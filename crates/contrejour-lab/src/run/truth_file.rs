@@ -1,8 +1,8 @@
 //! The truth on disk, so that a run that goes on, other sizes and other techniques need not trace it again.
 
-use std::fs;
 use std::path::Path;
 
+use contrejour_mesh::read_file;
 use contrejour_render::save_file;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +39,9 @@ impl TruthKey {
     }
 }
 
+/// Room for the line with the key, which has some 300 bytes.
+const MAX_KEY_BYTES: u64 = 4096;
+
 impl SceneTruth {
     /// Writes it: a line of JSON with the key, then a plane of little-endian 32-bit floats for each of its parts.
     pub fn save(&self, key: &TruthKey, path: &Path) -> Result<(), RunError> {
@@ -55,11 +58,12 @@ impl SceneTruth {
 
     /// Reads it; none where there is no such file or its key is another.
     pub fn load(key: &TruthKey, path: &Path) -> Option<Self> {
-        let bytes = fs::read(path).ok()?;
-        let end = bytes.iter().position(|&byte| byte == b'\n')?;
-        let kept: TruthKey = serde_json::from_slice(&bytes[..end]).ok()?;
         let pixels = key.picture_size.map(|side| side as usize).iter().product::<usize>();
         let planes = 6 + key.motion_steps as usize;
+        let most = MAX_KEY_BYTES + (size_of::<f32>() * pixels * planes) as u64;
+        let bytes = read_file(path, most).ok()?;
+        let end = bytes.iter().position(|&byte| byte == b'\n')?;
+        let kept: TruthKey = serde_json::from_slice(&bytes[..end]).ok()?;
         let values = &bytes[end + 1..];
         if kept != *key || values.len() != size_of::<f32>() * pixels * planes {
             return None;
@@ -75,6 +79,8 @@ impl SceneTruth {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

@@ -1,32 +1,16 @@
 //! Why a file is not a mesh, and what to do about it.
 
-use std::io;
 use std::path::PathBuf;
+
+use crate::ReadFileError;
 
 /// Why a mesh file is refused; each message is one line with path, place, problem and remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// The file, or a buffer beside it, is missing or may not be read.
-    #[error("{}: cannot be read ({source}); check the path and the permissions", path.display())]
-    Read {
-        /// The file that was opened.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// The path names a directory.
-    #[error("{}: is a directory; name a mesh file in it", path.display())]
-    Directory {
-        /// The path as given.
-        path: PathBuf,
-    },
-    /// The path names a pipe, a socket or a device.
-    #[error("{}: is no regular file; write the mesh to a file first", path.display())]
-    NotAFile {
-        /// The path as given.
-        path: PathBuf,
-    },
+    /// The file, or a buffer beside it, is not read.
+    #[error(transparent)]
+    File(#[from] ReadFileError),
     /// The file has no bytes.
     #[error("{}: the file is empty; export the mesh again", path.display())]
     Empty {

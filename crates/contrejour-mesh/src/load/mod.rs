@@ -10,10 +10,9 @@ mod ply;
 #[cfg(feature = "stl")]
 mod stl;
 
-use std::fs;
 use std::path::Path;
 
-use crate::MeshFile;
+use crate::{MeshFile, ReadFileError};
 
 pub use error::LoadError;
 #[cfg(feature = "gltf")]
@@ -27,7 +26,7 @@ pub use stl::load_stl;
 
 /// Loads a mesh file; its extension (.obj, .gltf, .glb, .ply, .stl, in any case) names the format.
 ///
-/// A file without triangles is an empty mesh and no error. What the loader leaves out, and that nothing is there, is in
+/// It may have up to [`MAX_FILE_BYTES`]; while it is loaded, memory holds it a few times. A file without triangles is an empty mesh and no error. What the loader leaves out, and that nothing is there, is in
 /// [`MeshFile::warnings`].
 ///
 /// # Errors
@@ -40,7 +39,7 @@ pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
         Some("gltf" | "glb") => "gltf",
         Some("ply") => "ply",
         Some("stl") => "stl",
-        _ if path.is_dir() => return Err(LoadError::Directory { path: path.into() }),
+        _ if path.is_dir() => return Err(ReadFileError::Directory { path: path.into() }.into()),
         _ => return Err(LoadError::UnknownFormat { path: path.into() }),
     };
     let bytes = read_file(path)?;
@@ -73,16 +72,11 @@ fn load_format(format: &'static str, bytes: &[u8], path: &Path) -> Result<MeshFi
     }
 }
 
-/// Reads a whole file; directories, pipes and devices have errors of their own, since a pipe may never end.
+/// The most bytes of a mesh file, and of each file that it names: 2 GiB.
+pub const MAX_FILE_BYTES: u64 = 1 << 31;
+
 fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {
-    let kind = fs::metadata(path).map_err(|source| LoadError::Read { path: path.into(), source })?;
-    if kind.is_dir() {
-        return Err(LoadError::Directory { path: path.into() });
-    }
-    if !kind.is_file() {
-        return Err(LoadError::NotAFile { path: path.into() });
-    }
-    fs::read(path).map_err(|source| LoadError::Read { path: path.into(), source })
+    Ok(crate::read_file(path, MAX_FILE_BYTES)?)
 }
 
 /// File name without extension: the name of a mesh in formats that name none.

@@ -208,5 +208,5 @@ fn shadow_settings_are_read_and_checked() {
 #[test]
 fn a_scene_file_that_is_not_there_is_an_error() {
     let error = Scene::open(Path::new("no-such-scene.toml")).expect_err("there is none");
-    assert!(error.to_string().starts_with("cannot read the scene no-such-scene.toml"), "{error}");
+    assert!(error.to_string().starts_with("no-such-scene.toml: cannot be read"), "{error}");
 }
