@@ -49,7 +49,23 @@ pub fn gpu_alone() -> Result<Gpu, String> {
     open(wgpu::Features::empty())
 }
 
+/// A device that no other test uses, with textures as large as its adapter allows and samplers that weigh 32-bit floats.
+///
+/// # Errors
+///
+/// Why there is none, in one line; that an adapter has no such feature is a normal reason.
+pub fn gpu_with_large_textures() -> Result<Gpu, String> {
+    open_with(wgpu::Features::FLOAT32_FILTERABLE, |adapter| wgpu::Limits {
+        max_texture_dimension_2d: adapter.max_texture_dimension_2d,
+        ..wgpu::Limits::default()
+    })
+}
+
 fn open(features: wgpu::Features) -> Result<Gpu, String> {
+    open_with(features, |_| wgpu::Limits::default())
+}
+
+fn open_with(features: wgpu::Features, limits: impl FnOnce(&wgpu::Limits) -> wgpu::Limits) -> Result<Gpu, String> {
     fn text(error: impl Display) -> String {
         error.to_string().replace('\n', " ")
     }
@@ -60,7 +76,7 @@ fn open(features: wgpu::Features) -> Result<Gpu, String> {
     let descriptor = wgpu::DeviceDescriptor {
         label: Some("tests"),
         required_features: features,
-        required_limits: wgpu::Limits::default(),
+        required_limits: limits(&adapter.limits()),
         ..Default::default()
     };
     let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))

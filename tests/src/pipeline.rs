@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, PrepareError, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{Corner, Counters, Quad, SilhouetteEdge};
 use contrejour_plan::{BufferKind, Light};
 use glam::DMat4;
@@ -39,21 +39,34 @@ impl<'a> Pipeline<'a> {
         Ok(Self { shadows, gpu, casters })
     }
 
+    /// Prepares a frame.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses.
+    pub fn prepare(&mut self, light: &Light) -> Result<(), PrepareError> {
+        let casters: Vec<_> = self
+            .casters
+            .iter()
+            .map(|&(mesh, world_from_object)| CasterInput { mesh, world_from_object, positions: Positions::OfMesh })
+            .collect();
+        self.shadows.prepare(&self.gpu.device, &self.gpu.queue, &FrameInput { light, casters: &casters })
+    }
+
+    /// Moves a caster.
+    pub fn place(&mut self, caster: usize, world_from_object: DMat4) {
+        self.casters[caster].1 = world_from_object;
+    }
+
     /// Prepares and submits one frame and waits for what it counted; zeros where the plan counts nothing.
     ///
     /// # Errors
     ///
     /// What the library refuses.
     pub fn frame(&mut self, light: &Light) -> Result<Counters, String> {
-        let casters: Vec<_> = self
-            .casters
-            .iter()
-            .map(|&(mesh, world_from_object)| CasterInput { mesh, world_from_object, positions: Positions::OfMesh })
-            .collect();
-        let input = FrameInput { light, casters: &casters };
         let _waiting = self.gpu.waiting();
+        self.prepare(light).map_err(|error| error.to_string())?;
         let Gpu { device, queue, .. } = self.gpu;
-        self.shadows.prepare(device, queue, &input).map_err(|error| error.to_string())?;
         let mut encoder = device.create_command_encoder(&Default::default());
         self.shadows.encode(&mut encoder, &mut Untimed);
         queue.submit([encoder.finish()]);

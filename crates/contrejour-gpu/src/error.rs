@@ -2,7 +2,62 @@
 
 use contrejour_plan::{LightError, PlanError, SettingsError};
 
+use std::error::Error;
+
 use crate::pool::MeshHandle;
+
+/// What the device itself fails at. The object that reports it can be used further, unless the device is lost.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DeviceError {
+    /// The device has no memory for what a frame needs; nothing that was made for the frame is kept.
+    #[error(
+        "the device has no memory for the {bytes} bytes that are needed ({text}): choose a smaller map, a technique \
+         with fewer maps, or smaller meshes"
+    )]
+    OutOfMemory {
+        /// Bytes of everything that the frame needs.
+        bytes: u64,
+        /// What wgpu says, with the name of what could not be made.
+        text: String,
+    },
+    /// The device does not make what a frame needs; nothing that was made for the frame is kept.
+    #[error(
+        "the device refuses what is needed ({text}): check formats and buffers that were given; where they are right, \
+         the driver or contrejour is wrong: please report this text"
+    )]
+    Refused {
+        /// What wgpu says.
+        text: String,
+    },
+    /// The device is lost, and everything that was made on it.
+    #[error("the device is lost: open a device again and make everything anew on it")]
+    Lost,
+    /// What is waited for does not come.
+    #[error("the device does not finish what it is waited for ({0}): submit the work first, or wait longer")]
+    Unfinished(#[from] wgpu::PollError),
+}
+
+impl DeviceError {
+    /// An error of wgpu's, in one line; `bytes` is what was asked for.
+    pub(crate) fn from_wgpu(error: &wgpu::Error, bytes: u64) -> Self {
+        match error {
+            wgpu::Error::OutOfMemory { source } => Self::OutOfMemory { bytes, text: with_causes(&**source) },
+            wgpu::Error::Validation { description, .. } | wgpu::Error::Internal { description, .. } => {
+                Self::Refused { text: one_line(description) }
+            }
+        }
+    }
+}
+
+fn with_causes(error: &(dyn Error + 'static)) -> String {
+    let chain = std::iter::successors(Some(error), |&error| error.source());
+    chain.map(|error| one_line(&error.to_string())).collect::<Vec<_>>().join(": ")
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
 
 /// Why [`Shadows::new`](crate::Shadows::new) refuses.
 #[derive(Debug, thiserror::Error)]
@@ -22,6 +77,9 @@ pub enum NewShadowsError {
     /// A setting is out of range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// The device fails.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
 }
 
 /// Why [`Shadows::add_mesh`](crate::Shadows::add_mesh) refuses.
@@ -36,7 +94,7 @@ pub enum AddMeshError {
     },
 }
 
-/// Why [`Shadows::prepare`](crate::Shadows::prepare) refuses; nothing was uploaded.
+/// Why [`Shadows::prepare`](crate::Shadows::prepare) refuses.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PrepareError {
@@ -72,15 +130,18 @@ pub enum PrepareError {
         /// From one position to the next, in bytes.
         stride: u64,
     },
+    /// The device fails.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
 }
 
 /// Why [`Shadows::wait_for_counters`](crate::Shadows::wait_for_counters) has none.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CountersError {
-    /// The device was lost or the wait failed.
-    #[error("the device did not finish the frame: {0}")]
-    Poll(#[from] wgpu::PollError),
+    /// The device is lost or the wait failed.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
     /// A frame was encoded and its commands were not submitted.
     #[error("an encoded frame was not submitted: submit its encoder before waiting for its counters")]
     NotSubmitted,

@@ -8,9 +8,11 @@
 
 mod casters;
 mod compute;
+mod device_watch;
 mod draft;
 mod error;
 mod frame;
+mod heartbeat;
 mod inputs;
 pub mod passes;
 mod pool;
@@ -27,7 +29,8 @@ mod wgsl;
 
 pub use casters::{CasterInput, Positions};
 pub use contrejour_plan::VisibilityKind;
-pub use error::{AddMeshError, CountersError, NewShadowsError, PrepareError};
+pub use error::{AddMeshError, CountersError, DeviceError, NewShadowsError, PrepareError};
+pub use heartbeat::poll;
 pub use inputs::{FrameInput, FrameStats, Maps, ShadowOptions, device_facts};
 pub use pool::{MeshHandle, mesh_facts};
 pub use shadows::Shadows;

@@ -13,6 +13,9 @@ const SLOTS: usize = 3;
 
 const BYTES: u64 = size_of::<Counters>() as u64;
 
+/// Bytes of all slots.
+pub(crate) const READBACK_BYTES: u64 = SLOTS as u64 * BYTES;
+
 /// A ring of small buffers that the counters are copied to and mapped by the submission that fills them.
 #[derive(Debug)]
 pub(crate) struct CounterReadback {

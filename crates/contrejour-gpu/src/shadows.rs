@@ -3,17 +3,19 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use contrejour_layout::{CasterLight, Counters};
+use contrejour_layout::{CasterLight, Counters, EyeView};
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, TextureKind, VisibilityKind};
 
 use crate::casters::CasterSet;
+use crate::device_watch::{DeviceWatch, OpenScopes};
 use crate::draft::{FrameDraft, LiveCopy, Records};
-use crate::error::{AddMeshError, CountersError, NewShadowsError, PrepareError};
+use crate::error::{AddMeshError, CountersError, DeviceError, NewShadowsError, PrepareError};
 use crate::frame::{Frame, Made};
+use crate::heartbeat::poll;
 use crate::inputs::{FrameInput, FrameStats, Maps, ShadowOptions, device_facts};
 use crate::pool::{MeshHandle, MeshPool};
-use crate::readback::CounterReadback;
+use crate::readback::{CounterReadback, READBACK_BYTES};
 use crate::timer::PassTimer;
 use crate::visibility::{EyeInput, Visibility};
 use crate::visibility_wgsl::visibility_wgsl;
@@ -31,6 +33,7 @@ pub struct Shadows {
     records: Records,
     copies: Vec<LiveCopy>,
     readback: CounterReadback,
+    watch: DeviceWatch,
     visibility: Option<Visibility>,
     stats: FrameStats,
     latest_is_complete: bool,
@@ -59,7 +62,7 @@ impl Shadows {
     ///
     /// # Errors
     ///
-    /// The device allows less than WebGPU's defaults, or the settings are out of range.
+    /// The device allows less than WebGPU's defaults, the settings are out of range, or the device fails.
     pub fn new(device: &wgpu::Device, options: &ShadowOptions) -> Result<Self, NewShadowsError> {
         let available = device.limits().max_storage_buffers_per_shader_stage;
         let needed = Self::required_limits().max_storage_buffers_per_shader_stage;
@@ -68,6 +71,9 @@ impl Shadows {
         }
         let device_facts = device_facts(device);
         options.settings.validate()?;
+        let scopes = OpenScopes::push(device);
+        let readback = CounterReadback::new(device);
+        let watch = DeviceWatch::new(device, scopes, READBACK_BYTES)?;
         Ok(Self {
             options: *options,
             device_facts,
@@ -78,7 +84,8 @@ impl Shadows {
             capacity: Capacity::default(),
             records: Records::default(),
             copies: Vec::new(),
-            readback: CounterReadback::new(device),
+            readback,
+            watch,
             visibility: None,
             stats: FrameStats::default(),
             latest_is_complete: false,
@@ -103,16 +110,21 @@ impl Shadows {
     ///
     /// # Errors
     ///
-    /// The light or a caster is not valid, or the device can't hold what the frame needs; then nothing has changed.
+    /// The light or a caster is not valid, or the plan lists more than the device allows; then nothing has changed. Where
+    /// the device itself fails ([`PrepareError::Device`]), what was made is dropped, and the next prepare makes all of it
+    /// again; until then there are no maps, as before the first.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         input: &FrameInput<'_>,
     ) -> Result<(), PrepareError> {
-        self.collect_counters(device);
+        self.watch.check(device)?;
+        let late = self.watch.late();
+        self.keep_if(late)?;
+        self.collect_counters();
         let draft = FrameDraft::new(input, &self.pool, &self.options, &self.device_facts, self.capacity)?;
-        let set_up_bytes = self.follow(device, queue, &draft);
+        let set_up_bytes = self.follow(device, queue, &draft)?;
         self.upload(queue, draft, set_up_bytes);
         Ok(())
     }
@@ -136,6 +148,10 @@ impl Shadows {
 
     /// Records the full-screen visibility of a deferred renderer's pixels into `eye.target`.
     ///
+    /// # Errors
+    ///
+    /// The device fails, or does not draw into the options' `visibility_format`; then nothing was recorded.
+    ///
     /// # Panics
     ///
     /// Before the first [`prepare`](Self::prepare).
@@ -146,11 +162,18 @@ impl Shadows {
         encoder: &mut wgpu::CommandEncoder,
         eye: &EyeInput<'_>,
         timer: &mut T,
-    ) {
+    ) -> Result<(), DeviceError> {
         let format = self.options.visibility_format;
         let Some(visibility) = &mut self.visibility else { panic!("{NOT_PREPARED}") };
-        let (pass, bind_group) = visibility.pass(device, format);
-        pass.encode((device, queue), encoder, eye, bind_group, timer);
+        let scopes = OpenScopes::push(device);
+        let (pass, shadow) = visibility.pass(device, format);
+        let eye_group = pass.bind_eye(device, queue, eye);
+        if let Err(error) = self.watch.close(device, scopes, EYE_BYTES) {
+            visibility.drop_pass();
+            return Err(error);
+        }
+        pass.encode(encoder, eye, [&eye_group, shadow], timer);
+        Ok(())
     }
 
     /// Which maps the visibility function reads. A later [`prepare`](Self::prepare) changes it only where smoothies
@@ -245,7 +268,8 @@ impl Shadows {
     /// The device was lost, or no frame that counts was submitted.
     pub fn wait_for_counters(&mut self, device: &wgpu::Device) -> Result<Counters, CountersError> {
         self.stats.readback_waits += 1;
-        device.poll(wgpu::PollType::wait_indefinitely())?;
+        poll(device, wgpu::PollType::wait_indefinitely())?;
+        self.watch.check(device)?;
         // Another thread that polls the same device may still have our callback to run.
         let patience = Instant::now() + CALLBACK_PATIENCE;
         while self.readback.is_pending() {
@@ -254,14 +278,12 @@ impl Shadows {
             }
             std::thread::yield_now();
         }
-        self.collect_counters(device);
+        self.collect_counters();
         self.stats.counters.ok_or(CountersError::NoFrame)
     }
 
     /// Takes the counters that have arrived: counts overflows and grows what was too short.
-    fn collect_counters(&mut self, device: &wgpu::Device) {
-        // Drives callbacks, waits for nothing; a lost device shows elsewhere.
-        let _ = device.poll(wgpu::PollType::Poll);
+    fn collect_counters(&mut self) {
         for frame in self.readback.arrived() {
             if !frame.capacity.holds(&frame.counters) {
                 self.stats.overflow_frames += 1;
@@ -274,13 +296,22 @@ impl Shadows {
         }
     }
 
-    /// Makes and fills what the draft's plan lists; returns the bytes that it uploaded.
-    fn follow(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, draft: &FrameDraft) -> u64 {
+    /// Makes and fills what the draft's plan lists; returns the bytes that it uploaded. A frame that needs nothing new
+    /// opens no error scope.
+    fn follow(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, draft: &FrameDraft) -> Result<u64, DeviceError> {
         let has_changed = self.plan.as_ref() != Some(&draft.plan);
         let has_new_casters = self.casters != draft.casters;
         if !has_changed && !has_new_casters {
-            return 0;
+            return Ok(0);
         }
+        let scopes = OpenScopes::push(device);
+        let bytes = self.make(device, queue, draft);
+        let made = self.watch.close(device, scopes, planned_bytes(&draft.plan));
+        self.keep_if(made)?;
+        Ok(bytes)
+    }
+
+    fn make(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, draft: &FrameDraft) -> u64 {
         let made = self.frame.follow(device, &draft.plan);
         self.follow_visibility(device, &draft.plan, &made);
 
@@ -299,6 +330,19 @@ impl Shadows {
         write(BufferKind::FaceItems, 0, bytemuck::cast_slice(&table.face_items));
         write(BufferKind::EdgeItems, 0, bytemuck::cast_slice(&table.edge_items));
         bytes
+    }
+
+    /// Drops everything that was made where the device failed, so that no later frame uses something half-made.
+    fn keep_if(&mut self, made: Result<(), DeviceError>) -> Result<(), DeviceError> {
+        if made.is_err() {
+            self.frame = Frame::default();
+            self.visibility = None;
+            self.plan = None;
+            self.casters = CasterSet::default();
+            self.latest_is_complete = false;
+            self.is_encoded = false;
+        }
+        made
     }
 
     fn follow_visibility(&mut self, device: &wgpu::Device, plan: &FramePlan, made: &Made) {
@@ -352,7 +396,15 @@ fn has_no_image(light: &CasterLight) -> bool {
     light.light_clip_from_object == [0.0; 16]
 }
 
+fn planned_bytes(plan: &FramePlan) -> u64 {
+    let buffers = plan.buffers.iter().map(|buffer| buffer.bytes);
+    buffers.chain(plan.textures.iter().map(|texture| texture.bytes)).sum()
+}
+
 /// How long a callback may take once the device is idle.
 const CALLBACK_PATIENCE: Duration = Duration::from_secs(2);
+
+/// Bytes that the full-screen pass needs: the record of the eye.
+const EYE_BYTES: u64 = size_of::<EyeView>() as u64;
 
 const NOT_PREPARED: &str = "no maps yet: call `prepare` first, with options that want maps";

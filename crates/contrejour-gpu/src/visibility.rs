@@ -106,6 +106,11 @@ impl Visibility {
         let pass = self.pass.get_or_insert_with(|| VisibilityPass::new(device, self.kind, &self.layout, format));
         (pass, &self.bind_group)
     }
+
+    /// Drops a pass that could not be made; the next use makes it again.
+    pub fn drop_pass(&mut self) {
+        self.pass = None;
+    }
 }
 
 const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
@@ -193,28 +198,31 @@ impl VisibilityPass {
         Self { eye_layout, eye_view, pipeline }
     }
 
-    pub fn encode<T: PassTimer>(
-        &self,
-        (device, queue): (&wgpu::Device, &wgpu::Queue),
-        encoder: &mut wgpu::CommandEncoder,
-        eye: &EyeInput<'_>,
-        visibility: &wgpu::BindGroup,
-        timer: &mut T,
-    ) {
+    /// Uploads the eye's view and binds it with the eye's depth buffer.
+    pub fn bind_eye(&self, device: &wgpu::Device, queue: &wgpu::Queue, eye: &EyeInput<'_>) -> wgpu::BindGroup {
         let record = EyeView {
             world_from_eye_clip: eye.world_from_eye_clip.as_mat4().to_cols_array(),
             background_depth: eye.background_depth,
             ..EyeView::default()
         };
         queue.write_buffer(&self.eye_view, 0, bytemuck::bytes_of(&record));
-        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("visibility"),
             layout: &self.eye_layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: self.eye_view.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(eye.depth) },
             ],
-        });
+        })
+    }
+
+    pub fn encode<T: PassTimer>(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        eye: &EyeInput<'_>,
+        [eye_group, shadow_group]: [&wgpu::BindGroup; 2],
+        timer: &mut T,
+    ) {
         let query = timer.begin("visibility", encoder);
         {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -234,8 +242,8 @@ impl VisibilityPass {
                 multiview_mask: None,
             });
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &bind_group, &[]);
-            pass.set_bind_group(1, visibility, &[]);
+            pass.set_bind_group(0, eye_group, &[]);
+            pass.set_bind_group(1, shadow_group, &[]);
             pass.draw(0..3, 0..1);
         }
         timer.end(query, encoder);

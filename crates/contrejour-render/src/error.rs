@@ -50,9 +50,6 @@ pub enum DrawError {
     /// The timestamps are not used as they should.
     #[error("the frame's timestamps cannot be used")]
     Timer(#[from] wgpu_profiler::EndFrameError),
-    /// Waiting for the device failed.
-    #[error("waiting for the graphics device failed")]
-    Poll(#[from] wgpu::PollError),
     /// The device failed.
     #[error(transparent)]
     Device(#[from] DeviceFault),

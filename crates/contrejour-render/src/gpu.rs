@@ -1,7 +1,8 @@
 //! A device without a window.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use contrejour_gpu::DeviceError;
 use contrejour_plan::DeviceFacts;
 
 /// A device, its queue and what went wrong on it; a clone is the same device.
@@ -18,9 +19,9 @@ pub struct Gpu {
     faults: Faults,
 }
 
-/// The first error that the device reported outside of any call.
+/// The first error that the device reported outside of any call, or that it is lost.
 #[derive(Clone, Debug, Default)]
-struct Faults(Arc<Mutex<Option<String>>>);
+struct Faults(Arc<Mutex<Option<DeviceFault>>>);
 
 /// Why no device could be opened.
 #[derive(Debug, thiserror::Error)]
@@ -42,10 +43,28 @@ pub enum OpenGpuError {
     },
 }
 
-/// The device reported an error that no call returned, or was lost.
+/// What went wrong on the device that no other call returned.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the graphics device failed: {0}; where it ran out of memory, choose a smaller --size or --map-size")]
-pub struct DeviceFault(String);
+pub enum DeviceFault {
+    /// The device reported an error.
+    #[error("the graphics device failed: {0}; where it ran out of memory, choose a smaller --size or --map-size")]
+    Reported(String),
+    /// The device is lost: its driver was reset or replaced, or it was destroyed.
+    #[error("the graphics device was lost{0}: open it again and make everything anew, or run the command again")]
+    Lost(String),
+    /// The device does not finish what it is waited for.
+    #[error("the graphics device does not finish its work: {0}")]
+    Unfinished(String),
+}
+
+/// What is asked of a device beyond WebGPU's defaults.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Extras {
+    /// Whatever it has and we can use.
+    All,
+    /// Nothing.
+    None,
+}
 
 impl Gpu {
     /// Opens the fastest device that there is; software drivers count as devices.
@@ -57,6 +76,19 @@ impl Gpu {
     ///
     /// [`OpenGpuError`] when there is no driver or the device lacks a default of WebGPU.
     pub fn open() -> Result<Self, OpenGpuError> {
+        Self::open_with(Extras::All)
+    }
+
+    /// Opens it with WebGPU's default limits and no optional feature, as the least that contrejour runs on.
+    ///
+    /// # Errors
+    ///
+    /// As [`open`](Self::open).
+    pub fn open_with_defaults() -> Result<Self, OpenGpuError> {
+        Self::open_with(Extras::None)
+    }
+
+    fn open_with(extras: Extras) -> Result<Self, OpenGpuError> {
         // OpenGL has less than WebGPU's defaults; to look for it costs time and lines on standard error.
         let descriptor = wgpu::InstanceDescriptor {
             backends: wgpu::Backends::PRIMARY,
@@ -70,10 +102,14 @@ impl Gpu {
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(OpenGpuError::NoAdapter)?;
         let adapter_info = adapter.get_info();
         let wanted = contrejour_gpu::Shadows::optional_features() | wgpu::Features::TIMESTAMP_QUERY;
+        let (optional, limits) = match extras {
+            Extras::All => (adapter.features() & wanted, limits(&adapter.limits())),
+            Extras::None => (wgpu::Features::empty(), contrejour_gpu::Shadows::required_limits()),
+        };
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("contrejour"),
-            required_features: contrejour_gpu::Shadows::required_features() | (adapter.features() & wanted),
-            required_limits: limits(&adapter.limits()),
+            required_features: contrejour_gpu::Shadows::required_features() | optional,
+            required_limits: limits,
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
@@ -81,13 +117,9 @@ impl Gpu {
 
         let faults = Faults::default();
         let reported = faults.clone();
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| reported.note(error.to_string())));
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| reported.note_error(&error)));
         let lost = faults.clone();
-        device.set_device_lost_callback(move |reason, message| {
-            if reason != wgpu::DeviceLostReason::Destroyed {
-                lost.note(format!("device lost: {message}"));
-            }
-        });
+        device.set_device_lost_callback(move |_, message| lost.note_loss(&message));
         let sample_count = sample_count(&adapter);
         Ok(Self { adapter_info, sample_count, device, queue, faults })
     }
@@ -125,22 +157,63 @@ impl Gpu {
     ///
     /// [`DeviceFault`] with the first report.
     pub fn check(&self) -> Result<(), DeviceFault> {
-        match self.faults.first() {
-            Some(message) => Err(DeviceFault(message)),
-            None => Ok(()),
+        self.faults.first().map_or(Ok(()), Err)
+    }
+
+    /// A buffer with contents; `create_buffer_init` of wgpu panics where there is no memory or no device.
+    pub(crate) fn upload(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: contents.len() as u64,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.queue.write_buffer(&buffer, 0, contents);
+        buffer
+    }
+
+    /// Waits for a submission, or for all of them.
+    ///
+    /// # Errors
+    ///
+    /// [`DeviceFault`] when the device fails or is lost.
+    pub fn wait(&self, submission: Option<wgpu::SubmissionIndex>) -> Result<(), DeviceFault> {
+        let waited =
+            contrejour_gpu::poll(&self.device, wgpu::PollType::Wait { submission_index: submission, timeout: None });
+        if waited.is_err() {
+            // A lost device says so when it is polled, and has no submission to wait for.
+            let _ = contrejour_gpu::poll(&self.device, wgpu::PollType::Poll);
+        }
+        self.check()?;
+        match waited {
+            Ok(_) => Ok(()),
+            Err(DeviceError::Lost) => Err(DeviceFault::Lost(String::new())),
+            Err(error) => Err(DeviceFault::Unfinished(error.to_string())),
         }
     }
 }
 
 impl Faults {
-    fn note(&self, message: String) {
-        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        // Reports go over many lines; the first says what happened.
-        first.get_or_insert_with(|| message.split_whitespace().collect::<Vec<_>>().join(" "));
+    /// The first error says what happened; those that follow from it are not kept.
+    fn note_error(&self, error: &wgpu::Error) {
+        // Reports go over many lines.
+        let text = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+        self.lock().get_or_insert(DeviceFault::Reported(text));
     }
 
-    fn first(&self) -> Option<String> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    /// Whatever was reported before: nothing else matters then.
+    fn note_loss(&self, message: &str) {
+        let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+        let reason = if message.is_empty() { message } else { format!(" ({message})") };
+        *self.lock() = Some(DeviceFault::Lost(reason));
+    }
+
+    fn first(&self) -> Option<DeviceFault> {
+        self.lock().clone()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<DeviceFault>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

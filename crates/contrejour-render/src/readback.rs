@@ -7,12 +7,9 @@ use crate::gpu::{DeviceFault, Gpu};
 /// Why nothing came back.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
-    /// The device failed before.
+    /// The device failed.
     #[error(transparent)]
     Device(#[from] DeviceFault),
-    /// Waiting for the device failed.
-    #[error("waiting for the graphics device failed")]
-    Poll(#[from] wgpu::PollError),
     /// The bytes cannot be mapped.
     #[error("cannot map what the graphics device wrote; it may be out of memory: use a smaller picture")]
     Map(#[from] wgpu::BufferAsyncError),
@@ -81,8 +78,7 @@ fn read_staging(gpu: &Gpu, staging: &wgpu::Buffer) -> Result<Vec<u8>, ReadError>
     let (sender, receiver) = std::sync::mpsc::channel();
     // The receiver outlives the wait below.
     staging.map_async(wgpu::MapMode::Read, .., move |result| sender.send(result).unwrap_or_default());
-    gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
-    gpu.check()?;
+    gpu.wait(None)?;
     receiver.try_recv().unwrap_or(Err(wgpu::BufferAsyncError))?;
     Ok(staging.get_mapped_range(..)?.to_vec())
 }

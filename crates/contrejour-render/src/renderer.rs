@@ -11,7 +11,7 @@ use image::RgbaImage;
 use crate::casters::{CastShadows, Casters};
 use crate::error::{DrawError, MAX_REPEATS, NewRendererError};
 use crate::frame_uniforms::FrameUniforms;
-use crate::gpu::Gpu;
+use crate::gpu::{DeviceFault, Gpu};
 use crate::local_space::LocalSpace;
 use crate::measurements::{CounterLog, Measurements};
 use crate::picture_pass::{PicturePass, Shading};
@@ -124,8 +124,7 @@ impl Renderer {
         self.frames.push(CpuCost { cpu_ms, upload_bytes });
         self.timer.collect();
         self.pace(submission)?;
-        self.gpu.check()?;
-        Ok(())
+        Ok(self.gpu.check()?)
     }
 
     /// Draws a frame again until its buffers held everything; waits for each.
@@ -159,7 +158,7 @@ impl Renderer {
     ///
     /// [`DrawError`] when the device fails.
     pub fn measurements(&mut self) -> Result<Measurements, DrawError> {
-        self.gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+        self.gpu.wait(None)?;
         self.timer.collect();
         let counters = self.counter_log.read(&self.gpu)?;
         let mut stats = self.cast.shadows.stats();
@@ -175,11 +174,10 @@ impl Renderer {
         ))
     }
 
-    fn pace(&mut self, submission: wgpu::SubmissionIndex) -> Result<(), wgpu::PollError> {
+    fn pace(&mut self, submission: wgpu::SubmissionIndex) -> Result<(), DeviceFault> {
         self.submissions.push_back(submission);
         while self.submissions.len() > self.gpu.frames_in_flight() {
-            let submission_index = self.submissions.pop_front();
-            self.gpu.device.poll(wgpu::PollType::Wait { submission_index, timeout: None })?;
+            self.gpu.wait(self.submissions.pop_front())?;
         }
         Ok(())
     }

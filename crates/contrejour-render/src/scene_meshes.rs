@@ -7,7 +7,6 @@ use std::sync::Arc;
 use contrejour_mesh::TriangleMesh;
 use contrejour_scene::{Scene, SceneMesh};
 use glam::{DMat3, DMat4, DVec3};
-use wgpu::util::DeviceExt;
 
 use crate::{Gpu, LocalSpace};
 
@@ -122,11 +121,7 @@ impl SceneMeshes {
 
         // A buffer must not be empty, also where nothing is drawn.
         surface_bytes.resize(surface_bytes.len().max(surface_stride), 0);
-        let surface_buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("surfaces"),
-            contents: &surface_bytes,
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let surface_buffer = gpu.upload("surfaces", &surface_bytes, wgpu::BufferUsages::UNIFORM);
         let surfaces = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("surfaces"),
             layout,
@@ -170,12 +165,9 @@ impl MeshBuffers {
                 ShadeVertex { position: position.as_vec3().to_array(), normal, color }
             })
             .collect();
-        let buffer = |label, contents, usage| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
-        };
         Ok(Self {
-            vertices: buffer("vertices", bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
-            indices: buffer("indices", bytemuck::cast_slice(&mesh.triangles), wgpu::BufferUsages::INDEX),
+            vertices: gpu.upload("vertices", bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
+            indices: gpu.upload("indices", bytemuck::cast_slice(&mesh.triangles), wgpu::BufferUsages::INDEX),
             index_count: 3 * mesh.triangles.len() as u32,
             object_from_vertex: DMat4::from_translation(center) * DMat4::from_scale(DVec3::splat(object_per_vertex)),
         })

@@ -2,7 +2,6 @@
 
 use contrejour_layout::SilhouetteEdge;
 use glam::DVec3;
-use wgpu::util::DeviceExt;
 
 use crate::Gpu;
 use crate::casters::Casters;
@@ -61,22 +60,14 @@ impl SilhouetteLines {
         let line_count = lines.len() as u32;
         // A buffer must not be empty, also where nothing is drawn.
         lines.push(Line { begin_local: [0.0; 3], end_local: [0.0; 3], color: [0.0; 4] });
-        let lines = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("silhouette lines"),
-            contents: bytemuck::cast_slice(&lines),
-            usage: wgpu::BufferUsages::VERTEX,
-        });
+        let lines = gpu.upload("silhouette lines", bytemuck::cast_slice(&lines), wgpu::BufferUsages::VERTEX);
         let overlay = Overlay {
             eye_clip_from_local,
             half_size: size.map(|side| 0.5 * side as f32),
             half_width_pixels: HALF_WIDTH_PIXELS,
             padding: 0,
         };
-        let overlay = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("overlay"),
-            contents: bytemuck::bytes_of(&overlay),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let overlay = gpu.upload("overlay", bytemuck::bytes_of(&overlay), wgpu::BufferUsages::UNIFORM);
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("silhouette lines"),
             source: wgpu::ShaderSource::Wgsl(SILHOUETTE_LINES.into()),

@@ -1,6 +1,7 @@
 //! The promises on the whole library, one file each.
 
 mod closed;
+mod device_trouble;
 mod exact;
 mod facing;
 mod judged;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         nothing_lost::trials(),
         nothing_per_edge::trials(),
         own_positions::trials(),
+        device_trouble::trials(),
         no_gaps::trials(),
         smoothie_ways::trials(),
         left_out::trials(),

@@ -81,7 +81,7 @@ impl<'a> DeviceFrame<'a> {
         self.shadows.encode(&mut encoder, &mut Untimed);
         let clock = Instant::now();
         queue.submit([encoder.finish()]);
-        device.poll(wgpu::PollType::wait_indefinitely()).map_err(CaseError::from)?;
+        self.gpu.wait(None).map_err(CaseError::from)?;
         let time_ms = 1000.0 * clock.elapsed().as_secs_f64();
         if self.shadows.buffer(BufferKind::Counters).is_some() {
             self.shadows.wait_for_counters(device).map_err(CaseError::from)?;

@@ -39,9 +39,6 @@ pub enum CaseError {
     /// Something could not be read back.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// Waiting for the device failed.
-    #[error("waiting for the graphics device failed")]
-    Poll(#[from] wgpu::PollError),
     /// The device failed.
     #[error(transparent)]
     Fault(#[from] DeviceFault),

@@ -99,13 +99,12 @@ impl Contestant {
         let wall_clock = Instant::now();
         let submission = gpu.queue.submit([commands]);
         let cpu_ms = 1000.0 * cpu_clock.elapsed().as_secs_f64();
-        gpu.device.poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None })?;
+        gpu.wait(Some(submission))?;
         let wall_ms = 1000.0 * wall_clock.elapsed().as_secs_f64();
 
         // Only now does the timer ask for its results, so that this is in neither time.
         self.timer.end_frame()?;
-        gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
-        gpu.check()?;
+        gpu.wait(None)?;
         let mut time = FrameTime::default();
         while let Some(frame) = self.timer.take_frame() {
             time = frame;

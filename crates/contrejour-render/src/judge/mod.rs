@@ -68,6 +68,7 @@ impl Judge {
     ///
     /// [`NewJudgeError`] when something does not fit on the device.
     pub fn new(mut gpu: Gpu, scene: &Scene) -> Result<Self, NewJudgeError> {
+        gpu.wait(None)?;
         gpu.sample_count = 1;
         check_size(&gpu, scene.size)?;
         let first_faces = first_faces(scene)?;

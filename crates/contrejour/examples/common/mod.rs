@@ -124,6 +124,72 @@ pub fn target(device: &wgpu::Device, format: wgpu::TextureFormat, usage: wgpu::T
     })
 }
 
+/// Shader of [`draw_depth`].
+const DEPTH_SHADER: &str = r#"
+@group(0) @binding(0) var<uniform> eye_clip_from_world: mat4x4f;
+
+@vertex
+fn vertex_main(@location(0) position_world: vec3f) -> @builtin(position) vec4f {
+    return eye_clip_from_world * vec4f(position_world, 1.0);
+}
+"#;
+
+/// Draws the depth of body and floor as the eye sees it.
+pub fn draw_depth(device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, torus: &Torus, depth: &wgpu::TextureView) {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("depth"),
+        source: wgpu::ShaderSource::Wgsl(DEPTH_SHADER.into()),
+    });
+    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("depth"),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex_main"),
+            compilation_options: Default::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: 12,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+            })],
+        },
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: wgpu::TextureFormat::Depth32Float,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: None,
+        multiview_mask: None,
+        cache: None,
+    });
+    let eye = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("eye"),
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: eye_uniform(device).as_entire_binding() }],
+    });
+    let (vertices, vertex_count) = scene_vertices(device, torus);
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("depth"),
+        color_attachments: &[],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    });
+    pass.set_pipeline(&pipeline);
+    pass.set_bind_group(0, &eye, &[]);
+    pass.set_vertex_buffer(0, vertices.slice(..));
+    pass.draw(0..vertex_count, 0..1);
+}
+
 /// Waits for the device and brings a buffer's bytes back.
 pub fn read_buffer(
     device: &wgpu::Device,
@@ -144,16 +210,17 @@ pub fn read_buffer(
     Ok(staging.slice(..).get_mapped_range()?.to_vec())
 }
 
-/// Writes a texture of the picture's size as a PNG into the temporary folder; returns its path.
-pub fn save(
+fn color_of(texture: &wgpu::Texture) -> image::ColorType {
+    if texture.format() == wgpu::TextureFormat::R8Unorm { image::ColorType::L8 } else { image::ColorType::Rgba8 }
+}
+
+/// Waits for the device and brings back a texture of the picture's size.
+pub fn read_texture(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     texture: &wgpu::Texture,
-    name: &str,
-) -> Result<PathBuf, Box<dyn std::error::Error>> {
-    let color =
-        if texture.format() == wgpu::TextureFormat::R8Unorm { image::ColorType::L8 } else { image::ColorType::Rgba8 };
-    let bytes_per_row = SIZE * u32::from(color.bytes_per_pixel());
+) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
+    let bytes_per_row = SIZE * u32::from(color_of(texture).bytes_per_pixel());
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("picture"),
         size: u64::from(bytes_per_row * SIZE),
@@ -168,7 +235,17 @@ pub fn save(
         texture.size(),
     );
     queue.submit([encoder.finish()]);
+    read_buffer(device, queue, &buffer)
+}
+
+/// Writes a texture of the picture's size as a PNG into the temporary folder; returns its path.
+pub fn save(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    texture: &wgpu::Texture,
+    name: &str,
+) -> Result<PathBuf, Box<dyn std::error::Error>> {
     let path = std::env::temp_dir().join(name);
-    image::save_buffer(&path, &read_buffer(device, queue, &buffer)?, SIZE, SIZE, color)?;
+    image::save_buffer(&path, &read_texture(device, queue, texture)?, SIZE, SIZE, color_of(texture))?;
     Ok(path)
 }

@@ -84,7 +84,8 @@ impl StagesAlone {
 
     /// None where there was nothing to do.
     fn time_ms(&mut self, light: &Light) -> Result<Option<f64>, DrawError> {
-        let Self { gpu: Gpu { device, queue, .. }, shadows, mesh } = self;
+        let Self { gpu, shadows, mesh } = self;
+        let Gpu { device, queue, .. } = &*gpu;
         let casters = [CasterInput { mesh: *mesh, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh }];
         for _ in 0..REPEATS_MAX {
             shadows.prepare(device, queue, &FrameInput { light, casters: &casters })?;
@@ -94,7 +95,7 @@ impl StagesAlone {
             let Some(stages) = cut.stages else { return Ok(None) };
             let clock = Instant::now();
             let submission = queue.submit([stages]);
-            device.poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None })?;
+            gpu.wait(Some(submission))?;
             let time_ms = 1000.0 * clock.elapsed().as_secs_f64();
 
             // The maps, which are not timed, and the counters.
