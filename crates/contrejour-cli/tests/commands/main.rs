@@ -1,6 +1,8 @@
 //! The command line as a user runs it.
 
 mod bad_input;
+#[cfg(unix)]
+mod hostile_files;
 mod program;
 mod render;
 mod report;
@@ -25,6 +27,8 @@ fn main() -> ExitCode {
         report::trials(),
         bad_input::trials(),
         xml::trials(),
+        #[cfg(unix)]
+        hostile_files::trials(),
     ];
     libtest_mimic::run(&Arguments::from_args(), trials.into_iter().flatten().collect()).exit_code()
 }

@@ -9,6 +9,8 @@ use tempfile::TempDir;
 /// What drivers print on standard error by themselves.
 const DRIVER_LINES: [&str; 4] = ["error: XDG_RUNTIME_DIR", "MESA", "WARNING: lavapipe", "libEGL"];
 
+const BINARY: &str = env!("CARGO_BIN_EXE_contrejour");
+
 /// A folder in which the binary runs.
 pub struct Folder {
     folder: TempDir,
@@ -63,12 +65,33 @@ impl Folder {
 
     /// Runs the binary with arguments that spaces separate.
     pub fn run(&self, arguments: &str) -> Run {
-        let output = Command::new(env!("CARGO_BIN_EXE_contrejour"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.folder.path())
-            .output()
-            .expect("the binary runs");
-        Run { command: format!("contrejour {arguments}"), output }
+        self.run_by(&mut Command::new(BINARY), arguments)
+    }
+
+    /// Runs a line of a shell whose arguments, from the first on, are the binary and its own.
+    #[cfg(unix)]
+    pub fn run_in_shell(&self, line: &str, arguments: &str) -> Run {
+        self.run_by(Command::new("sh").args(["-c", line, "sh", BINARY]), arguments)
+    }
+
+    /// Runs a copy of the binary as a user without rights; only the superuser can.
+    #[cfg(unix)]
+    pub fn run_as_nobody(&self, arguments: &str) -> Result<Run, String> {
+        use std::os::unix::fs::PermissionsExt;
+
+        // Somewhere that everybody may look at.
+        let text = |error: std::io::Error| error.to_string();
+        fs::set_permissions(self.folder.path(), PermissionsExt::from_mode(0o777)).map_err(text)?;
+        let copy = self.path("contrejour");
+        fs::copy(BINARY, &copy).map_err(text)?;
+        let mut command = Command::new("setpriv");
+        command.args(["--reuid=65534", "--regid=65534", "--clear-groups"]).arg(copy);
+        Ok(self.run_by(&mut command, arguments))
+    }
+
+    fn run_by(&self, command: &mut Command, arguments: &str) -> Run {
+        let command = command.args(arguments.split_whitespace()).current_dir(self.folder.path());
+        Run { command: format!("contrejour {arguments}"), output: command.output().expect("the binary runs") }
     }
 }
 
