@@ -12,7 +12,8 @@
 
 struct ShadowVertex {
     @builtin(position) clip: vec4f,
-    @location(0) depth: f32,
+    // As a share of the farthest: rasterisers extrapolate what they interpolate, which may be too much for a float.
+    @location(0) depth_share: f32,
 }
 
 // Where a corner goes that draws nothing: behind the far plane.
@@ -30,10 +31,10 @@ fn vertex_shadow_map(@builtin(vertex_index) index: u32) -> ShadowVertex {
     let vertices = vec3u(face.a, face.b, face.c);
     let position = scaled_position(caster, vertices[index % 3u]);
     let clip = caster_lights[item.caster].light_clip_from_object * vec4f(position, 1.0);
-    return ShadowVertex(clip, depth_of_clip(clip));
+    return ShadowVertex(clip, depth_of_clip(clip) / view.far_depth);
 }
 
 @fragment
 fn fragment_shadow_map(vertex: ShadowVertex) -> @location(0) f32 {
-    return vertex.depth / view.depth_unit;
+    return vertex.depth_share * (view.far_depth / view.depth_unit);
 }

@@ -19,7 +19,8 @@ struct SmoothieVertex {
     // Offset from a corner's apex; zero on a quad.
     @location(1) around: vec2f,
     @location(2) width: f32,
-    @location(3) q: f32,
+    // As a share of the largest: rasterisers extrapolate what they interpolate, which may be too much for a float.
+    @location(3) q_share: f32,
 }
 
 // The inner rim reaches half a texel under the blocker, since quads and shadow map round differently.
@@ -36,7 +37,7 @@ fn vertex_quad(@builtin(vertex_index) index: u32) -> SmoothieVertex {
     let q = select(quad.q.x, quad.q.y, is_high);
     let across = select(-rim_overlap(), width, is_outer);
     let ndc = select(quad.low_ndc, quad.high_ndc, is_high) + across * quad.outward;
-    return SmoothieVertex(clip_at(ndc, q), across, vec2f(0.0), width, q);
+    return SmoothieVertex(clip_at(ndc, q), across, vec2f(0.0), width, q / q_unit());
 }
 
 // A corner reaches as far over its quads and under the blocker: its own rim and theirs fall between texels in ways of
@@ -60,7 +61,7 @@ fn vertex_corner(@builtin(vertex_index) index: u32) -> SmoothieVertex {
     } else if (point == 1u) == (triangle % 2u == 0u) {
         around = select(ends, begins, triangle % 2u == 0u);
     }
-    return SmoothieVertex(clip_at(corner.apex_ndc + around, corner.q), 0.0, around, width, corner.q);
+    return SmoothieVertex(clip_at(corner.apex_ndc + around, corner.q), 0.0, around, width, corner.q / q_unit());
 }
 
 // In NDC, whose side is 2.
@@ -99,7 +100,11 @@ fn fragment_smoothie_buffer(vertex: SmoothieVertex) -> @location(0) vec2f {
     if !is_kept(vertex) {
         discard;
     }
-    return vec2f(depth_of_q(vertex.q) / view.depth_unit, remapped_alpha(vertex));
+    return vec2f(depth_of_q(blocker_q(vertex)) / view.depth_unit, remapped_alpha(vertex));
+}
+
+fn blocker_q(vertex: SmoothieVertex) -> f32 {
+    return vertex.q_share * q_unit();
 }
 
 fn distance_to_edge(vertex: SmoothieVertex) -> f32 {
@@ -112,7 +117,7 @@ fn receiver_depth(vertex: SmoothieVertex) -> f32 {
 
 // Within the width, and in front of the receiver: a smoothie behind it must not darken a nearer one's texel.
 fn is_kept(vertex: SmoothieVertex) -> bool {
-    let blocker = depth_of_q(vertex.q);
+    let blocker = depth_of_q(blocker_q(vertex));
     let bias = view.bias_smoothie_texels * texel_footprint(blocker);
     return distance_to_edge(vertex) <= vertex.width && blocker + bias < receiver_depth(vertex);
 }
@@ -123,6 +128,7 @@ fn remapped_alpha(vertex: SmoothieVertex) -> f32 {
         return alpha;
     }
     // The paper's alpha / (1 - b / r), for a perspective and for an orthographic view alike.
+    let q = blocker_q(vertex);
     let q_receiver = q_of_depth(receiver_depth(vertex));
-    return saturate(alpha * (view.q_max - vertex.q) / (q_receiver - vertex.q));
+    return saturate(alpha * (view.q_max - q) / (q_receiver - q));
 }

@@ -12,6 +12,11 @@ fn depth_of_q(q: f32) -> f32 {
     return select(q, -1.0 / q, view.perspective == 1u);
 }
 
+// The size of the largest q in view.
+fn q_unit() -> f32 {
+    return select(view.far_depth, 1.0 / view.near_depth, view.perspective == 1u);
+}
+
 // World size of a texel at a depth.
 fn texel_footprint(depth: f32) -> f32 {
     return view.texel_world * select(1.0, depth, view.perspective == 1u);

@@ -133,13 +133,16 @@ fn ndc(point: [f32; 2]) -> DVec2 {
     DVec2::from(point.map(f64::from))
 }
 
+/// Whether a point is in a quad as it is drawn: from its edge along `outward`, which is across the true edge and not
+/// quite across the rounded ends of a short one.
 fn quad_covers(quad: &Quad, point: DVec2, tolerance: f64) -> bool {
     let (low, high, outward) = (ndc(quad.low_ndc), ndc(quad.high_ndc), ndc(quad.outward));
     let length = (high - low).length();
-    // The edge itself, for the outward direction of a short one is rounded; at an end that is no end, `outward` rules.
     let along = (high - low).try_normalize().unwrap_or(outward.perp());
-    let across = (point - low).dot(outward);
-    let distance_along = (point - low).dot(along);
+    // point = low + distance_along * along + across * outward
+    let sine = along.perp_dot(outward);
+    let distance_along = (point - low).perp_dot(outward) / sine;
+    let across = along.perp_dot(point - low) / sine;
     let share = (distance_along / length.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     let width = f64::from(quad.width_ndc[0]) * (1.0 - share) + f64::from(quad.width_ndc[1]) * share;
     (-tolerance..=width + tolerance).contains(&across) && (-tolerance..=length + tolerance).contains(&distance_along)
@@ -284,6 +287,46 @@ mod tests {
         let (mut quads, corners, blockers) = closed_triangle();
         quads.swap_remove(0);
         assert!(!outline_gaps(&quads, &corners, &blockers, &GapSearch::default()).is_empty());
+    }
+
+    /// A hundred edges of an outline that rounding turns by hundredths of a radian, and their outward directions by
+    /// nothing: quads are drawn along those.
+    #[test]
+    fn short_edges_with_rounded_ends_have_no_gap() {
+        let vertex = |index: u32| 0.7 * DVec2::from_angle(0.3 + 1e-5 * f64::from(index));
+        let rounded = |index| vertex(index).as_vec2().to_array();
+        let outward = |index| (vertex(index + 1) - vertex(index)).normalize().perp().as_vec2().to_array().map(|x| -x);
+        let quads = (0..100).map(|index| Quad {
+            low_ndc: rounded(index),
+            high_ndc: rounded(index + 1),
+            outward: outward(index),
+            width_ndc: [0.05; 2],
+            low_vertex: index,
+            high_vertex: index + 1,
+            // Where the row of edges ends, nothing closes it.
+            own_ends: if (40..60).contains(&index) { OWN_END_LOW } else { 0 },
+            ..Default::default()
+        });
+        let corners = (0..99).map(|index| Corner {
+            apex_ndc: rounded(index + 1),
+            begin: outward(index),
+            middle: outward(index),
+            end: outward(index + 1),
+            width_ndc: 0.05,
+            vertex_id: index + 1,
+            kind: CORNER_WEDGE,
+            ..Default::default()
+        });
+        let (quads, mut corners): (Vec<_>, Vec<_>) = (quads.collect(), corners.collect());
+        let blockers: Vec<_> =
+            (0..100).map(|index| [DVec2::ZERO, ndc(rounded(index)), ndc(rounded(index + 1))]).collect();
+        // Near enough that all points beside a vertex are beside the row.
+        let search = GapSearch { radius_ndc: 2e-4, ..GapSearch::default() };
+        assert_eq!(outline_gaps(&quads, &corners, &blockers, &search), []);
+        let mut turned = quads.clone();
+        turned[50].outward = (DVec2::from_angle(0.02).rotate(ndc(quads[50].outward))).as_vec2().to_array();
+        corners.retain(|corner| corner.vertex_id != 51);
+        assert!(!outline_gaps(&turned, &corners, &blockers, &search).is_empty());
     }
 
     #[test]
