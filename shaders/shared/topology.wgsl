@@ -38,6 +38,8 @@ struct Caster {
     first_lit_word: u32,
     first_outline_word: u32,
     position_scale: f32,
+    position_origin: vec3f,
+    unused_0: u32,
 }
 
 struct WorkItem {

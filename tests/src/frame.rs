@@ -5,7 +5,8 @@ use contrejour_layout::{
     BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
     LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, SilhouetteEdge, WorkItem,
 };
-use contrejour_plan::{Light, ShadowSettings, ViewCounts, caster_light, position_scale, views};
+use contrejour_mesh::TopologyAwareMesh;
+use contrejour_plan::{Light, NearOne, ShadowSettings, ViewCounts, caster_light, views};
 
 use crate::meshes::TestPart;
 use crate::random::Random;
@@ -53,7 +54,7 @@ impl Frame {
             let caster = frame.add_part(part, index, lit_words, outline_words);
             lit_words += caster.face_count.div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
             outline_words += caster.edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK;
-            let light = caster_light(&view, &part.world_from_object, caster.position_scale);
+            let light = caster_light(&view, &part.world_from_object, &near_one(&part.topology));
             if light.casts == 1 {
                 frame.face_items.extend(items(index, caster.face_count));
                 frame.edge_items.extend(items(index, caster.edge_count));
@@ -143,7 +144,9 @@ impl Frame {
             first_vertex_edge_word: first_vertex_offset_word + mesh.vertex_edge_offsets.len() as u32,
             first_lit_word: lit_words,
             first_outline_word: outline_words,
-            position_scale: position_scale(mesh.bounds_min, mesh.bounds_max),
+            position_scale: near_one(mesh).scale,
+            position_origin: near_one(mesh).origin,
+            unused_0: 0,
         };
         for position in &mesh.positions {
             self.positions.extend(position.map(f32::to_bits));
@@ -209,6 +212,10 @@ impl Frame {
         };
         place.copy_from_slice(bytes);
     }
+}
+
+fn near_one(mesh: &TopologyAwareMesh) -> NearOne {
+    NearOne::of_box(mesh.bounds_min, mesh.bounds_max)
 }
 
 fn items(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {

@@ -1,6 +1,6 @@
 //! Lights that have given bits in the object space of their casters: what the exact facing test is asked about.
 
-use contrejour_plan::{Light, LightKind, caster_light, views};
+use contrejour_plan::{Light, LightKind, NearOne, caster_light, views};
 use glam::{DMat4, DVec3, DVec4};
 
 /// A homogeneous light in the object space of casters that may be mirrored.
@@ -45,7 +45,7 @@ impl ObjectLight {
     /// What it makes of the light instead.
     pub fn check_bits(&self) -> Result<(), String> {
         let view = views(&self.light()).map_err(|error| error.to_string())?[0];
-        let found = caster_light(&view, &self.world_from_object(), 1.0);
+        let found = caster_light(&view, &self.world_from_object(), &NearOne::IDENTITY);
         let light_object = found.light_object.map(f32::from_bits);
         if light_object == self.light_object && (found.casts, found.mirrored) == (1, self.mirrored.into()) {
             return Ok(());

@@ -123,6 +123,8 @@ fn record(range: &MeshRange) -> Caster {
         first_vertex_edge_word: range.first_vertex_edge_word,
         first_lit_word: 0,
         first_outline_word: 0,
-        position_scale: range.position_scale,
+        position_scale: range.near_one.scale,
+        position_origin: range.near_one.origin,
+        unused_0: 0,
     }
 }

@@ -56,7 +56,7 @@ impl FrameDraft {
                 return Err(PrepareError::UnknownMesh { caster: index, mesh: caster.mesh });
             };
             let positions = live_positions(caster, index, pool.facts()[caster.mesh.0].vertices)?;
-            caster_lights.push(caster_light(&view, &caster.world_from_object, range.position_scale));
+            caster_lights.push(caster_light(&view, &caster.world_from_object, &range.near_one));
             scene.casters.push(facts(caster, index, range, positions));
             live.push(positions);
         }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use contrejour_layout::{Edge, Face};
 use contrejour_mesh::{EdgeClass, TopologyAwareMesh};
-use contrejour_plan::{BufferKind, MeshFacts, position_scale};
+use contrejour_plan::{BufferKind, MeshFacts, NearOne};
 
 /// A mesh that was given to [`Shadows::add_mesh`](crate::Shadows::add_mesh).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -21,7 +21,7 @@ pub(crate) struct MeshRange {
     pub first_incidence: u32,
     pub first_vertex_offset_word: u32,
     pub first_vertex_edge_word: u32,
-    pub position_scale: f32,
+    pub near_one: NearOne,
     pub bounds_min: [f32; 3],
     pub bounds_max: [f32; 3],
 }
@@ -79,7 +79,7 @@ impl MeshPool {
             first_incidence: before.incidences as u32,
             first_vertex_offset_word: before.vertex_edges as u32,
             first_vertex_edge_word: (before.vertex_edges + offsets) as u32,
-            position_scale: position_scale(mesh.bounds_min, mesh.bounds_max),
+            near_one: NearOne::of_box(mesh.bounds_min, mesh.bounds_max),
             bounds_min: mesh.bounds_min,
             bounds_max: mesh.bounds_max,
         });

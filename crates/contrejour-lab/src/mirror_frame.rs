@@ -11,7 +11,7 @@ use contrejour_mesh::TopologyAwareMesh;
 use contrejour_mirror::{
     ClassifyFaces, FrameInputs, FrameOutputs, RefineFaces, ResolveFaces, WriteRefineArgs, run_frame,
 };
-use contrejour_plan::{Light, LightError, ShadowSettings, ViewCounts, caster_light, position_scale, views};
+use contrejour_plan::{Light, LightError, NearOne, ShadowSettings, ViewCounts, caster_light, views};
 use glam::DMat4;
 
 /// Quads and corners that a first run has room for: few meshes need more, and room for every edge of a large one would
@@ -56,7 +56,7 @@ impl<'a> MirrorFrame<'a> {
         };
         for ((mesh, world_from_object), index) in meshes.iter().zip(0..) {
             let caster = frame.add(mesh);
-            let light = caster_light(&view, world_from_object, caster.position_scale);
+            let light = caster_light(&view, world_from_object, &near_one(mesh));
             if light.casts == 1 {
                 frame.face_items.extend(items(index, caster.face_count));
                 frame.edge_items.extend(items(index, caster.edge_count));
@@ -104,7 +104,9 @@ impl<'a> MirrorFrame<'a> {
             first_lit_word: last.map_or(0, |last| last.first_lit_word + words(last.face_count, LIT_WORDS_PER_BLOCK)),
             first_outline_word: last
                 .map_or(0, |last| last.first_outline_word + words(last.edge_count, OUTLINE_WORDS_PER_BLOCK)),
-            position_scale: position_scale(mesh.bounds_min, mesh.bounds_max),
+            position_scale: near_one(mesh).scale,
+            position_origin: near_one(mesh).origin,
+            unused_0: 0,
         };
         append(&mut self.positions, cast_slice(&mesh.positions));
         append(&mut self.faces, &mesh.faces);
@@ -164,6 +166,10 @@ fn lit_end(caster: &Caster) -> u32 {
 
 fn words(count: u32, words_per_block: u32) -> u32 {
     count.div_ceil(BLOCK_SIZE) * words_per_block
+}
+
+fn near_one(mesh: &TopologyAwareMesh) -> NearOne {
+    NearOne::of_box(mesh.bounds_min, mesh.bounds_max)
 }
 
 fn items(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {

@@ -88,8 +88,14 @@ shared_struct! {
         first_lit_word: u32,
         /// Where its outline sides start in the buffer of outline sides, in words.
         first_outline_word: u32,
-        /// A power of two that brings its positions near 1. Matrices expect the scaled positions; facing never does.
+        /// A power of two that brings its positions, less `position_origin`, near 1. Matrices expect the scaled positions;
+        /// facing never does.
         position_scale: f32,
+        /// A point amid its positions where those are far from zero, so that the image keeps all their digits; else
+        /// zeros.
+        position_origin: [f32; 3],
+        /// Zero.
+        unused_0: u32,
     }
 }
 

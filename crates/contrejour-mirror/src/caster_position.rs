@@ -1,4 +1,4 @@
-//! Positions of a caster, brought near 1 by its power of two. Never used for facing.
+//! Positions of a caster, brought near 1 by its origin and its power of two. Never used for facing.
 
 use contrejour_layout::Caster;
 use glam::Vec3;
@@ -10,5 +10,5 @@ pub(crate) fn scaled_position(caster: &Caster, positions: &[u32], vertex: u32) -
         f32::from_bits(positions[word + 1]),
         f32::from_bits(positions[word + 2]),
     );
-    position * caster.position_scale
+    (position - Vec3::from(caster.position_origin)) * caster.position_scale
 }

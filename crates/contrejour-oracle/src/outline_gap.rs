@@ -81,7 +81,8 @@ pub fn outline_gaps(
 
 /// Images of a caster's faces in NDC, without what is in front of the near plane or behind the far one.
 ///
-/// `positions` are scaled by the caster's `position_scale`, as `light_clip_from_object` expects.
+/// `positions` are brought near 1 by the caster's `position_origin` and `position_scale`, as `light_clip_from_object`
+/// expects.
 pub fn blocker_image(positions: &[Vec3], faces: &[[u32; 3]], light_clip_from_object: &Mat4) -> Vec<[DVec2; 3]> {
     let clip: Vec<Vec4> = positions.iter().map(|position| light_clip_from_object * position.extend(1.0)).collect();
     let mut image = Vec::new();

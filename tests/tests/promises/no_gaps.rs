@@ -4,9 +4,7 @@ use std::ops::Range;
 
 use contrejour_gpu::ShadowOptions;
 use contrejour_oracle::{GapSearch, blocker_image, outline_gaps};
-use contrejour_plan::{
-    ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, View, caster_light, position_scale, views,
-};
+use contrejour_plan::{NearOne, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, View, caster_light, views};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::lights;
@@ -53,9 +51,10 @@ fn blockers(mesh: &TestMesh, view: &View) -> Vec<[DVec2; 3]> {
 
 fn blockers_of_part(part: &TestPart, view: &View) -> Vec<[DVec2; 3]> {
     let topology = &part.topology;
-    let scale = position_scale(topology.bounds_min, topology.bounds_max);
-    let light = caster_light(view, &part.world_from_object, scale);
-    let positions: Vec<_> = topology.positions.iter().map(|&position| scale * Vec3::from(position)).collect();
+    let near_one = NearOne::of_box(topology.bounds_min, topology.bounds_max);
+    let light = caster_light(view, &part.world_from_object, &near_one);
+    let scaled = |&position: &[f32; 3]| near_one.scale * (Vec3::from(position) - Vec3::from(near_one.origin));
+    let positions: Vec<_> = topology.positions.iter().map(scaled).collect();
     let faces: Vec<_> = topology.faces.iter().map(|face| [face.a, face.b, face.c]).collect();
     blocker_image(&positions, &faces, &Mat4::from_cols_array(&light.light_clip_from_object))
 }

@@ -3,7 +3,7 @@
 use contrejour_gpu::ShadowOptions;
 use contrejour_layout::{CasterLight, Counters, Edge, SilhouetteEdge};
 use contrejour_oracle::{ManyLights, OracleTopology};
-use contrejour_plan::{Outputs, caster_light, position_scale, views};
+use contrejour_plan::{NearOne, Outputs, caster_light, views};
 use contrejour_tests::compare::compare_exact;
 use contrejour_tests::exhaust::{Exhaust, Found};
 use contrejour_tests::gpu::Gpu;
@@ -43,8 +43,8 @@ fn are_exact_and_closed(gpu: &Gpu, mesh: &TestMesh) -> Outcome {
         for (caster, (part, oracle)) in mesh.parts.iter().zip(&oracles).enumerate() {
             let of_caster = |edge: &&SilhouetteEdge| edge.caster == caster as u32;
             let found: Vec<_> = silhouettes.iter().filter(of_caster).copied().collect();
-            let scale = position_scale(part.topology.bounds_min, part.topology.bounds_max);
-            let light = caster_light(&view, &part.world_from_object, scale);
+            let near_one = NearOne::of_box(part.topology.bounds_min, part.topology.bounds_max);
+            let light = caster_light(&view, &part.world_from_object, &near_one);
             check_light(&light, &part.world_from_object, view.light_world)
                 .map_err(|fault| format!("light {index}, part {caster}: {fault}"))?;
             let at = |difference: String| format!("light {index}, part {caster}: {difference}");

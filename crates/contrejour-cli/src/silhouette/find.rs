@@ -5,7 +5,7 @@ use std::sync::Arc;
 use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{BLOCK_SIZE, Caster, SilhouetteEdge, WorkItem};
 use contrejour_mirror::{FrameInputs, run_frame};
-use contrejour_plan::{Light, Outputs, ShadowSettings, View, ViewCounts, caster_light, position_scale, views};
+use contrejour_plan::{Light, NearOne, Outputs, ShadowSettings, View, ViewCounts, caster_light, views};
 use contrejour_render::{Gpu, read_silhouettes};
 
 use super::found::PlacedMesh;
@@ -52,8 +52,8 @@ pub fn on_cpu(placed: &[PlacedMesh<'_>], light: &Light) -> Result<Vec<Silhouette
 /// The silhouette of one mesh; `None` where its matrix is singular.
 fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<SilhouetteEdge>> {
     let topology = &*placed.topology;
-    let scale = position_scale(topology.bounds_min, topology.bounds_max);
-    let caster_light = caster_light(view, &placed.world_from_object, scale);
+    let near_one = NearOne::of_box(topology.bounds_min, topology.bounds_max);
+    let caster_light = caster_light(view, &placed.world_from_object, &near_one);
     if caster_light.casts == 0 {
         return None;
     }
@@ -62,8 +62,14 @@ fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<Silhouette
     let blocks = |count: u32| (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { caster: 0, block });
     let face_items: Vec<WorkItem> = blocks(face_count).collect();
     let edge_items: Vec<WorkItem> = blocks(edge_count).collect();
-    let caster =
-        Caster { position_stride_words: 3, face_count, edge_count, position_scale: scale, ..Caster::default() };
+    let caster = Caster {
+        position_stride_words: 3,
+        face_count,
+        edge_count,
+        position_scale: near_one.scale,
+        position_origin: near_one.origin,
+        ..Caster::default()
+    };
     // Without room for quads and corners none are kept.
     let counts = ViewCounts {
         face_items: face_items.len() as u32,

@@ -7,7 +7,7 @@ mod power_of_two;
 mod records;
 mod view;
 
-pub use caster_light::{caster_light, position_scale};
+pub use caster_light::{NearOne, caster_light};
 pub use frustum::ObjectBox;
 pub use object_light::{ObjectLight, object_light};
 pub use records::ViewCounts;
