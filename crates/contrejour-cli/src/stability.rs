@@ -1,16 +1,29 @@
 //! `contrejour stability`: extreme cases, as a table and as a page.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use contrejour_lab::stability::{CSV_FILE, Event, JSON_FILE, Options, PAGE_FILE, Stability, families, run as try_all};
+use contrejour_lab::stability::{
+    CSV_FILE, Event, Findings, JSON_FILE, Options, PAGE_FILE, Stability, families, run as try_all,
+};
 use contrejour_render::Gpu;
-use serde_json::json;
+use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::output::{print, warn};
 use crate::report::command_line;
 use crate::report_progress::{Progress, counted, seconds};
 use crate::stability_args::StabilityArguments;
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Told {
+    page: PathBuf,
+    json: PathBuf,
+    csv: PathBuf,
+    #[serde(flatten)]
+    findings: Findings,
+}
 
 /// Findings of a fault are no bad input.
 const FAULT_FOUND: u8 = 1;
@@ -49,8 +62,7 @@ fn show(progress: &Progress, event: &Event) {
 fn told(arguments: &StabilityArguments, found: &Stability) -> Result<String, Failure> {
     let [page, json, csv] = [PAGE_FILE, JSON_FILE, CSV_FILE].map(|file| arguments.output.join(file));
     if arguments.json {
-        let told = json!({ "page": page, "json": json, "csv": csv, "findings": found.findings() });
-        return Ok(serde_json::to_string_pretty(&told)?);
+        return Ok(serde_json::to_string_pretty(&Told { page, json, csv, findings: found.findings() })?);
     }
     Ok([json, csv, page].map(|path| path.display().to_string()).join("\n"))
 }

@@ -8,6 +8,7 @@ mod render;
 mod report;
 mod reports;
 mod silhouette;
+mod stability;
 mod xml;
 
 use std::env;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
         render::trials(),
         reports::trials(),
         report::trials(),
+        stability::trials(),
         bad_input::trials(),
         xml::trials(),
         #[cfg(unix)]

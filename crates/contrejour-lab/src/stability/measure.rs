@@ -3,15 +3,16 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use contrejour_layout::{BLOCK_SIZE, Corner, LIT_WORDS_PER_BLOCK, Quad, SilhouetteEdge};
+use contrejour_gpu::Shadows;
+use contrejour_layout::{BLOCK_SIZE, CasterLight, Corner, LIT_WORDS_PER_BLOCK, Quad, SilhouetteEdge};
 use contrejour_oracle::{GapSearch, OracleTopology, blocker_image, open_vertices, outline_gaps};
-use contrejour_plan::{position_scale, views};
+use contrejour_plan::{NearOne, Omitted, Reason, views};
 use contrejour_render::Gpu;
 use glam::{DVec2, Mat4, Vec3};
 
 use super::case::Case;
 use super::checks::{FaceSigns, WidthDefinition, bare_lit, non_finite, wrong_edges, wrong_signs};
-use super::device::{DeviceFrame, DeviceMesh, DeviceOutputs};
+use super::device::{DeviceFrame, DeviceMesh};
 use super::error::{CaseError, Ended, Refusal};
 use super::family::Family;
 use super::row::{FacingTimes, Row};
@@ -102,7 +103,7 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
         let gaps = drawn.iter().map(|(quads, corners)| gaps(quads, corners, &blockers, search));
         row.gaps = gaps.reduce(u64::max);
     }
-    explain(row, &device, &meshes, &found);
+    explain(row, &device.shadows);
     Ok(())
 }
 
@@ -112,41 +113,30 @@ fn gaps(quads: &[Quad], corners: &[Corner], blockers: &[[DVec2; 3]], search: &Ga
 
 /// Images of all faces, by the very matrices that the stages get.
 fn blockers(meshes: &[DeviceMesh], frame: &MirrorFrame) -> Vec<[DVec2; 3]> {
-    let of_mesh = |(mesh, light): (&DeviceMesh, &contrejour_layout::CasterLight)| {
+    let of_mesh = |(mesh, light): (&DeviceMesh, &CasterLight)| {
         let topology = &mesh.topology;
-        let scale = position_scale(topology.bounds_min, topology.bounds_max);
-        let positions: Vec<_> = topology.positions.iter().map(|&position| scale * Vec3::from(position)).collect();
+        let NearOne { origin, scale } = NearOne::of_box(topology.bounds_min, topology.bounds_max);
+        let near_one = |&position: &[f32; 3]| scale * (Vec3::from(position) - Vec3::from(origin));
+        let positions: Vec<_> = topology.positions.iter().map(near_one).collect();
         let faces: Vec<_> = topology.faces.iter().map(|face| [face.a, face.b, face.c]).collect();
         blocker_image(&positions, &faces, &Mat4::from_cols_array(&light.light_clip_from_object))
     };
     meshes.iter().zip(&frame.caster_lights).flat_map(of_mesh).collect()
 }
 
-/// Adds what the library itself counts as left out.
-fn explain(row: &mut Row, device: &DeviceFrame, meshes: &[DeviceMesh], found: &DeviceOutputs) {
-    let stats = device.shadows.stats();
-    let casting = device.shadows.plan().map_or(0, |plan| plan.casting.len());
-    let reasons = [
-        (
-            stats.singular_casters > 0,
-            "the light has no place in the mesh's object space within 32-bit floats, so it casts nothing",
-        ),
-        (
-            stats.imageless_casters > 0,
-            "32-bit floats can't hold the view's clip space: the silhouette is found, no shadow is thrown",
-        ),
-        (
-            casting + (stats.singular_casters as usize) < meshes.len(),
-            "the mesh is outside of the light's frustum and casts nothing there",
-        ),
-        (found.lit.is_none() && casting > 0, "the light has no size, so its shadow is hard and has no silhouette"),
-    ];
-    for (_, reason) in reasons.into_iter().filter(|(applies, _)| *applies) {
-        if !row.degrades.is_empty() {
-            row.degrades.push_str("; ");
-        }
-        row.degrades.push_str(reason);
-    }
+/// Adds what the library itself says that it left out.
+fn explain(row: &mut Row, shadows: &Shadows) {
+    let left_out = shadows.plan().map_or(&[][..], |plan| &plan.left_out);
+    let told = left_out.iter().filter_map(|left_out| match (&left_out.what, left_out.reason) {
+        (Omitted::CasterWork(_), reason) => Some(format!("the mesh casts nothing: {reason}")),
+        (Omitted::DetectionStages, Reason::LightHasNoSize) => Some(format!("no silhouette: {}", left_out.reason)),
+        _ => None,
+    });
+    let imageless = (shadows.stats().imageless_casters > 0).then(|| {
+        "32-bit floats can't hold the view's clip space: the silhouette is found, no shadow is thrown".to_owned()
+    });
+    let known = Some(std::mem::take(&mut row.degrades)).filter(|known| !known.is_empty());
+    row.degrades = known.into_iter().chain(told).chain(imageless).collect::<Vec<_>>().join("; ");
 }
 
 /// The same faces by a bare test and by the twins of the exact stages, taking turns; the best of three each. None where

@@ -1,5 +1,6 @@
 //! Many faces: below a texel, around one vertex, each edge in the silhouette, more than one binding holds.
 
+use contrejour_oracle::GapSearch;
 use glam::{DQuat, DVec3};
 
 use super::super::case::{Case, CaseMesh};
@@ -100,11 +101,19 @@ fn wound_by_turns(turn: DQuat) -> CaseMesh {
     CaseMesh::new(positions, triangles.collect())
 }
 
+/// Faces of a fan times vertices that are searched for gaps.
+const FAN_SEARCHED: usize = 1_000_000;
+
 fn fan(effort: &Effort) -> Vec<Case> {
     let cases = effort.powers_of_ten(1, 5, 1).into_iter().flat_map(|(_, count)| {
         let mesh = cone(count as u32);
-        both(DVec3::ZERO, 1.0)
-            .map(|(light_name, light)| Case::new(format!("{count}, {light_name}"), count, mesh.clone(), light))
+        both(DVec3::ZERO, 1.0).map(|(light_name, light)| {
+            let mut case = Case::new(format!("{count}, {light_name}"), count, mesh.clone(), light);
+            // Each of these vertices is near all faces.
+            let max_vertices = (FAN_SEARCHED / count as usize).clamp(10, 300);
+            case.gap_search = case.gap_search.map(|search| GapSearch { max_vertices, ..search });
+            case
+        })
     });
     cases.collect()
 }

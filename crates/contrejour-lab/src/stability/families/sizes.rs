@@ -30,12 +30,19 @@ fn scale(effort: &Effort) -> Vec<Case> {
     scales.into_iter().flat_map(|(name, scale)| ring_cases(&name, scale, scale, DVec3::ZERO)).collect()
 }
 
+/// From where on neighbours of the ring, a tenth of its size apart, are fewer than ten 32-bit numbers apart.
+const SHAPELESS: f64 = 1e5;
+
+const NO_SHAPE: &str = "32-bit positions are so far apart at this distance that they hold another shape: what is found is \
+                        exact for the positions as they are rounded";
+
 fn distance(effort: &Effort) -> Vec<Case> {
     let none = ring_cases("0", 0.0, 1.0, DVec3::ZERO);
     let distances = effort.powers_of_ten(-2, 7, 1).into_iter().flat_map(|(name, distance)| {
         // Along no axis, so that all coordinates lose their digits.
         let offset = 2.0 * RING_RADIUS * distance * DVec3::new(0.6, -0.5, 0.62);
-        ring_cases(&name, distance, 1.0, offset)
+        let degrades = if distance >= SHAPELESS { NO_SHAPE } else { "" };
+        ring_cases(&name, distance, 1.0, offset).into_iter().map(|case| Case { degrades: degrades.to_owned(), ..case })
     });
     none.into_iter().chain(distances).collect()
 }
