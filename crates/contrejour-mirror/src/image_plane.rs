@@ -15,24 +15,36 @@ pub(crate) fn clip_from_object(light: &CasterLight) -> Mat4 {
 
 /// Unit direction in which the image moves from a low to a high end; none where the edge projects to a point.
 ///
-/// Derivative of `xy / w`, times `w` squared: right for any sign of `w`, also that of an end behind the light.
+/// Derivative of `xy / w`, times `w` squared: right for any sign of `w`, also that of an end behind the light. Of its
+/// factors both are brought near 1, since clip space is as large or as small as the scene.
 pub(crate) fn image_direction(clip_from_object: &Mat4, low: Vec3, high: Vec3) -> Option<Vec2> {
+    let edge = high - low;
+    let columns = [clip_from_object.x_axis, clip_from_object.y_axis, clip_from_object.z_axis];
+    let reach = columns[0].abs() + columns[1].abs() + columns[2].abs();
+    let reach_scale = reciprocal_power(reach.x.max(reach.y).max(reach.w));
+    let [x, y, z] = columns.map(|column| column * reach_scale);
+    let delta = x * edge.x + y * edge.y + z * edge.z;
     let clip = clip_from_object * low.extend(1.0);
-    let delta = clip_from_object * (high - low).extend(0.0);
-    let direction = delta.xy() * clip.w - clip.xy() * delta.w;
+    let near_one = clip * reciprocal_power(clip.x.abs().max(clip.y.abs()).max(clip.w.abs()));
+    let direction = delta.xy() * near_one.w - near_one.xy() * delta.w;
     let size = direction.x.abs().max(direction.y.abs());
-    if size > POINT_TOLERANCE * longest_image(clip_from_object, clip, high - low) {
+    if size > POINT_TOLERANCE * longest_image(reach * reach_scale, near_one, edge) {
         // Divided by its size first, so that squares neither overflow nor vanish.
         return Some((direction / size).normalize());
     }
     None
 }
 
-/// A bound of the terms that a direction is the difference of, for any edge as long as `delta`.
-fn longest_image(clip_from_object: &Mat4, clip: Vec4, delta: Vec3) -> f32 {
-    let reach = clip_from_object.x_axis.abs() + clip_from_object.y_axis.abs() + clip_from_object.z_axis.abs();
+/// A power of two that brings a size near 1; it is a normal float for any size.
+fn reciprocal_power(size: f32) -> f32 {
+    f32::from_bits(0x7f00_0000 - (size.to_bits() & 0x7f80_0000).clamp(0x0080_0000, 0x7e80_0000))
+}
+
+/// A bound of the terms that a direction is the difference of, for any edge as long as `edge`; `reach` is how far a step
+/// along all axes goes in clip space.
+fn longest_image(reach: Vec4, clip: Vec4, edge: Vec3) -> f32 {
     let offset = clip.x.abs().max(clip.y.abs());
-    let length = delta.x.abs().max(delta.y.abs()).max(delta.z.abs());
+    let length = edge.x.abs().max(edge.y.abs()).max(edge.z.abs());
     length * (reach.x.max(reach.y) * clip.w.abs() + offset * reach.w)
 }
 
@@ -77,6 +89,24 @@ mod tests {
             point.xy() / -point.z
         };
         assert!(from_front.distance((image(0.01) - image(0.0)).normalize()) < 1e-4);
+    }
+
+    #[test]
+    fn direction_does_not_depend_on_the_size_of_clip_space() {
+        let (low, high) = (Vec3::new(1.0, 1.0, -2.0), Vec3::new(1.25, 1.5, -3.0));
+        let expected = image_direction(&SPOT, low, high);
+        assert!(expected.is_some());
+        for exponent in [-124, -90, -66, -30, 30, 62, 90, 124] {
+            assert_eq!(image_direction(&(SPOT * 2.0_f32.powi(exponent)), low, high), expected, "2^{exponent}");
+        }
+    }
+
+    #[test]
+    fn powers_bring_any_size_near_one() {
+        for size in [1e-37, 1e-20, 0.75, 1.0, 3.0, 1e20, 3e38] {
+            assert!((1.0..4.0).contains(&(size * reciprocal_power(size))), "{size}");
+        }
+        assert!([0.0, 1e-40, f32::INFINITY, f32::NAN].map(reciprocal_power).iter().all(|power| power.is_normal()));
     }
 
     #[test]
