@@ -11,7 +11,7 @@ use contrejour_render::Gpu;
 use glam::{DVec2, Mat4, Vec3};
 
 use super::case::Case;
-use super::checks::{FaceSigns, WidthDefinition, bare_lit, non_finite, wrong_edges, wrong_signs};
+use super::checks::{FaceSigns, WidthDefinition, bare_lit, missing_quads, non_finite, wrong_edges, wrong_signs};
 use super::device::{DeviceFrame, DeviceMesh};
 use super::error::{CaseError, Ended, Refusal};
 use super::family::Family;
@@ -94,6 +94,8 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
     // What is drawn.
     row.non_finite = Some(found.non_finite + non_finite(&twin.quads) + non_finite(&twin.corners));
     let drawn = [(&found.quads, &found.corners), (&twin.quads, &twin.corners)];
+    let lists = [(&found.silhouettes, &found.quads), (&twin.silhouettes, &twin.quads)];
+    let missing: u64 = lists.iter().map(|(edges, quads)| missing_quads(&view, &meshes, edges, quads)).sum();
     if let Some(definition) = WidthDefinition::new(&view, &case.settings) {
         let errors = drawn.iter().filter_map(|(quads, corners)| definition.error(&meshes, quads, corners));
         row.width_error = errors.reduce(f64::max);
@@ -101,7 +103,7 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
     if let Some(search) = &case.gap_search {
         let blockers = blockers(&meshes, &frame);
         let gaps = drawn.iter().map(|(quads, corners)| gaps(quads, corners, &blockers, search));
-        row.gaps = gaps.reduce(u64::max);
+        row.gaps = gaps.reduce(u64::max).map(|gaps| gaps + missing);
     }
     explain(row, &device.shadows);
     Ok(())

@@ -206,7 +206,7 @@ fn columns() -> Markup {
         (
             "gaps",
             "points of the image plane beside outline vertices that neither a blocker nor a smoothie covers; of the \
-             device or of its twin, whichever has more",
+             device or of its twin, whichever has more; and outline edges in view to which either gave no quad",
         ),
         (
             "non_finite",

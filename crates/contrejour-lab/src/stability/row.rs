@@ -34,7 +34,8 @@ pub struct Row {
     pub sign_errors: Option<u64>,
     /// Vertices at which the silhouette of the device or of its twin is no cycle.
     pub open_cycles: Option<u64>,
-    /// Points beside outline vertices that neither a blocker nor a smoothie covers, of the device or of its twin.
+    /// Points beside outline vertices that neither a blocker nor a smoothie covers, of the device or of its twin, and
+    /// outline edges in view that either gave no quad.
     pub gaps: Option<u64>,
     /// Numbers that are infinite or none, in every float of the buffers and texels that the frame leaves and in what the
     /// twin leaves.
