@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use contrejour_layout::{Quad, SilhouetteEdge};
 use contrejour_plan::View;
-use glam::{DVec3, DVec4, Vec4Swizzles};
+use glam::{DVec3, DVec4, Vec3Swizzles, Vec4Swizzles};
 
 use super::super::device::DeviceMesh;
 
