@@ -48,7 +48,7 @@ pub enum Hardness {
 
 impl Hardness {
     /// All kinds; the ranges of exponents lie around those where the tiers of the facing test change.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 22] = [
         Self::AnyBits,
         Self::Coplanar,
         Self::SmallIntegers,
@@ -65,6 +65,9 @@ impl Hardness {
         Self::Exponents { light: [160, 170], faces: [160, 170] },
         Self::Exponents { light: [80, 90], faces: [80, 90] },
         Self::Exponents { light: [60, 100], faces: [60, 100] },
+        // Spans about as long as those of the lights and planes that the first tier takes.
+        Self::Exponents { light: [28, 130], faces: [100, 130] },
+        Self::Exponents { light: [127, 130], faces: [85, 130] },
         Self::Exponents { light: [0, 24], faces: [0, 24] },
         Self::Exponents { light: [230, 254], faces: [230, 254] },
         Self::Exponents { light: [1, 4], faces: [251, 254] },
