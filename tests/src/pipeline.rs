@@ -91,28 +91,28 @@ impl<'a> Pipeline<'a> {
         Err(format!("not complete after {MAX_FRAMES} frames"))
     }
 
-    /// The silhouette list of the last frame.
-    pub fn silhouettes(&self, counters: &Counters) -> Vec<SilhouetteEdge> {
-        self.records(BufferKind::Silhouettes, counters.silhouette_edges)
+    /// The silhouette lists of the last frame, page after page.
+    pub fn silhouettes(&self) -> Vec<SilhouetteEdge> {
+        self.records(BufferKind::Silhouettes, |counters| counters.silhouette_edges)
     }
 
-    /// The quads of the last frame, as far as there was room.
-    pub fn quads(&self, counters: &Counters) -> Vec<Quad> {
-        self.records(BufferKind::Quads, counters.quads)
+    /// The quads of the last frame, page after page, as far as there was room.
+    pub fn quads(&self) -> Vec<Quad> {
+        self.records(BufferKind::Quads, |counters| counters.quads)
     }
 
-    /// The corners of the last frame, as far as there was room.
-    pub fn corners(&self, counters: &Counters) -> Vec<Corner> {
-        self.records(BufferKind::Corners, counters.corners)
+    /// The corners of the last frame, page after page, as far as there was room.
+    pub fn corners(&self) -> Vec<Corner> {
+        self.records(BufferKind::Corners, |counters| counters.corners)
     }
 
-    fn records<T: bytemuck::Pod>(&self, kind: BufferKind, count: u32) -> Vec<T> {
-        match self.shadows.buffer(kind) {
-            Some(buffer) => {
-                let room = buffer.size() as usize / size_of::<T>();
-                self.gpu.read_back(buffer, room.min(count as usize))
-            }
-            None => Vec::new(),
+    fn records<T: bytemuck::Pod>(&self, kind: BufferKind, count: impl Fn(&Counters) -> u32) -> Vec<T> {
+        let mut records = Vec::new();
+        for (counters, buffer) in self.shadows.buffers(BufferKind::Counters).zip(self.shadows.buffers(kind)) {
+            let counters = self.gpu.read_back(counters, 1)[0];
+            let room = buffer.size() as usize / size_of::<T>();
+            records.extend(self.gpu.read_back::<T>(buffer, room.min(count(&counters) as usize)));
         }
+        records
     }
 }

@@ -1,9 +1,10 @@
 //! From the caller's casters to caster records and work items.
 
 use contrejour_layout::{BLOCK_SIZE, Caster, LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK, WorkItem};
+use contrejour_plan::PagePlan;
 use glam::DMat4;
 
-use crate::pool::{MeshHandle, MeshPool, MeshRange, PoolWords};
+use crate::pool::{MeshHandle, MeshPool};
 
 /// A mesh that casts in this frame. What receives shadows belongs here too: soft edges harden towards what is in the map,
 /// and over what is not they are as soft at the contact as far away.
@@ -40,7 +41,7 @@ pub enum Positions<'a> {
 pub(crate) struct CasterSet {
     casters: Vec<CasterKey>,
     /// Words of the meshes' own positions, which those of the caller's buffers follow.
-    pool: PoolWords,
+    pool_words: u64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,62 +70,73 @@ impl LivePositions {
     }
 }
 
-/// Records and work items of a caster set, as they are uploaded.
+/// Records and work items of a page, as they are uploaded.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CasterTable {
+    /// One for each caster of the scene; zeros where it has no work on the page.
     pub casters: Vec<Caster>,
     pub face_items: Vec<WorkItem>,
     pub edge_items: Vec<WorkItem>,
 }
 
-impl CasterSet {
-    pub fn new(casters: Vec<CasterKey>, pool: PoolWords) -> Self {
-        Self { casters, pool }
-    }
-
-    pub fn table(&self, meshes: &MeshPool) -> CasterTable {
-        let mut table = CasterTable::default();
-        let mut next_live_word = self.pool.positions as u32;
-        let (mut next_lit_word, mut next_outline_word) = (0, 0);
-        for (key, index) in self.casters.iter().zip(0..) {
-            let Some(range) = meshes.range(key.mesh) else { continue };
-            let mut caster = record(range);
-            caster.first_lit_word = next_lit_word;
-            caster.first_outline_word = next_outline_word;
-            if let Some(live) = key.live {
-                caster.first_position_word = next_live_word;
-                caster.position_stride_words = live.stride_words;
-                next_live_word += live.words() as u32;
-            }
-            if key.is_active {
-                let face_blocks = range.face_count.div_ceil(BLOCK_SIZE);
-                let edge_blocks = range.edge_count.div_ceil(BLOCK_SIZE);
-                table.face_items.extend((0..face_blocks).map(|block| WorkItem { caster: index, block }));
-                table.edge_items.extend((0..edge_blocks).map(|block| WorkItem { caster: index, block }));
-                next_lit_word += face_blocks * LIT_WORDS_PER_BLOCK;
-                next_outline_word += edge_blocks * OUTLINE_WORDS_PER_BLOCK;
-            }
-            table.casters.push(caster);
-        }
-        table
-    }
+/// Where the words of a caster begin in the buffers that serve all pages.
+#[derive(Clone, Copy, Debug)]
+struct CasterWords {
+    lit: u32,
+    outline: u32,
+    /// Where positions are the caller's.
+    live: u32,
 }
 
-fn record(range: &MeshRange) -> Caster {
-    Caster {
-        first_position_word: range.first_position_word,
-        position_stride_words: 3,
-        first_face: range.first_face,
-        face_count: range.face_count,
-        first_edge: range.first_edge,
-        edge_count: range.edge_count,
-        first_incidence: range.first_incidence,
-        first_vertex_offset_word: range.first_vertex_offset_word,
-        first_vertex_edge_word: range.first_vertex_edge_word,
-        first_lit_word: 0,
-        first_outline_word: 0,
-        position_scale: range.near_one.scale,
-        position_origin: range.near_one.origin,
-        unused_0: 0,
+impl CasterSet {
+    pub fn new(casters: Vec<CasterKey>, pool_words: u64) -> Self {
+        Self { casters, pool_words }
+    }
+
+    /// The tables of all pages.
+    pub fn tables(&self, meshes: &MeshPool, pages: &[PagePlan]) -> Vec<CasterTable> {
+        let words = self.words(meshes);
+        pages.iter().map(|page| self.table(meshes, page, &words)).collect()
+    }
+
+    fn words(&self, meshes: &MeshPool) -> Vec<CasterWords> {
+        let mut next = CasterWords { lit: 0, outline: 0, live: self.pool_words as u32 };
+        let words = |key: &CasterKey| {
+            let words = next;
+            next.live += key.live.map_or(0, LivePositions::words) as u32;
+            if let Some(mesh) = meshes.get(key.mesh).filter(|_| key.is_active) {
+                next.lit += (mesh.topology.faces.len() as u32).div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
+                next.outline += mesh.topology.candidate_edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK;
+            }
+            words
+        };
+        self.casters.iter().map(words).collect()
+    }
+
+    fn table(&self, meshes: &MeshPool, page: &PagePlan, words: &[CasterWords]) -> CasterTable {
+        let places = meshes.places(page);
+        let mut table = CasterTable { casters: vec![Caster::default(); self.casters.len()], ..CasterTable::default() };
+        for here in &page.casters {
+            let (key, words) = (&self.casters[here.caster], &words[here.caster]);
+            let piece = &page.pieces[here.piece];
+            let mut caster = meshes.record(piece, &places[here.piece]);
+            caster.first_lit_word = words.lit;
+            caster.first_outline_word = words.outline;
+            if let Some(live) = key.live {
+                caster.first_position_word = words.live;
+                caster.position_stride_words = live.stride_words;
+            }
+            table.casters[here.caster] = caster;
+            if key.is_active {
+                let items = |first: u32, blocks: u32| {
+                    let first_block = first / BLOCK_SIZE;
+                    let caster = here.caster as u32;
+                    (first_block..first_block + blocks).map(move |block| WorkItem { caster, block })
+                };
+                table.face_items.extend(items(piece.first_face, piece.face_blocks()));
+                table.edge_items.extend(items(piece.first_edge, piece.edge_blocks()));
+            }
+        }
+        table
     }
 }

@@ -1,7 +1,7 @@
 //! A compute stage on the device: its pipeline, its bind group, its dispatch.
 
 use contrejour_layout::{DispatchArgs, MAX_GROUPS_X};
-use contrejour_plan::{BufferKind, Stage, ViewCounts};
+use contrejour_plan::{BufferKind, PagePlan, Stage};
 
 use crate::resources::{Buffers, binding_type};
 use crate::stages::{ComputeStage, Dispatch};
@@ -60,17 +60,18 @@ impl StagePipeline {
         self.description.stage
     }
 
-    pub fn bind(&self, device: &wgpu::Device, buffers: &Buffers) -> wgpu::BindGroup {
-        buffers.bind(device, self.stage().name(), &self.layout, self.stage().buffers(), None)
+    /// The bind group of a page.
+    pub fn bind(&self, device: &wgpu::Device, buffers: &Buffers, page: usize) -> wgpu::BindGroup {
+        buffers.bind(device, self.stage().name(), &self.layout, (self.stage().buffers(), page), None)
     }
 
-    /// Records the stage as a pass of its own, so that a timer sees it alone.
+    /// Records the stage over all pages as a pass of its own, so that a timer sees it alone.
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        bind_group: &wgpu::BindGroup,
+        bind_groups: &[wgpu::BindGroup],
         buffers: &Buffers,
-        counts: &ViewCounts,
+        pages: &[PagePlan],
         timer: &mut T,
     ) {
         let name = self.stage().name();
@@ -81,16 +82,19 @@ impl StagePipeline {
                 timestamp_writes: T::compute_writes(&query),
             });
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, bind_group, &[]);
-            match self.description.dispatch {
-                Dispatch::Items(kind) => {
-                    let groups = if kind == BufferKind::EdgeItems { counts.edge_items } else { counts.face_items };
-                    pass.dispatch_workgroups(groups.min(MAX_GROUPS_X), groups.div_ceil(MAX_GROUPS_X), 1);
-                }
-                Dispatch::Once => pass.dispatch_workgroups(1, 1, 1),
-                Dispatch::Indirect(kind, index) => {
-                    let offset = u64::from(index) * size_of::<DispatchArgs>() as u64;
-                    pass.dispatch_workgroups_indirect(buffers.get(kind), offset);
+            for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
+                pass.set_bind_group(0, bind_group, &[]);
+                match self.description.dispatch {
+                    Dispatch::Items(kind) => {
+                        let counts = &page.counts;
+                        let groups = if kind == BufferKind::EdgeItems { counts.edge_items } else { counts.face_items };
+                        pass.dispatch_workgroups(groups.min(MAX_GROUPS_X), groups.div_ceil(MAX_GROUPS_X), 1);
+                    }
+                    Dispatch::Once => pass.dispatch_workgroups(1, 1, 1),
+                    Dispatch::Indirect(kind, entry) => {
+                        let offset = u64::from(entry) * size_of::<DispatchArgs>() as u64;
+                        pass.dispatch_workgroups_indirect(buffers.get(kind, index), offset);
+                    }
                 }
             }
         }

@@ -8,7 +8,7 @@ use contrejour_plan::{
 use crate::casters::{CasterInput, CasterKey, CasterSet, LivePositions, Positions};
 use crate::error::PrepareError;
 use crate::inputs::{FrameInput, ShadowOptions};
-use crate::pool::{MeshPool, MeshRange};
+use crate::pool::{MeshPool, PooledMesh};
 
 /// A prepared frame that has not touched the device yet.
 #[derive(Debug)]
@@ -23,7 +23,8 @@ pub(crate) struct FrameDraft {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Records {
     pub caster_lights: Vec<CasterLight>,
-    pub light_view: LightView,
+    /// One for each page, which differ in their counts.
+    pub light_views: Vec<LightView>,
     pub receiver_view: ReceiverView,
 }
 
@@ -48,16 +49,17 @@ impl FrameDraft {
         let view = views(input.light)?.remove(0);
 
         // Look at each caster.
-        let mut scene = SceneFacts { meshes: pool.facts().to_vec(), ..SceneFacts::default() };
+        let mut scene =
+            SceneFacts { meshes: pool.facts().to_vec(), pieces: pool.pieces().to_vec(), ..SceneFacts::default() };
         let mut caster_lights = Vec::with_capacity(input.casters.len());
         let mut live = Vec::with_capacity(input.casters.len());
         for (caster, index) in input.casters.iter().zip(0..) {
-            let Some(range) = pool.range(caster.mesh) else {
+            let Some(mesh) = pool.get(caster.mesh) else {
                 return Err(PrepareError::UnknownMesh { caster: index, mesh: caster.mesh });
             };
             let positions = live_positions(caster, index, pool.facts()[caster.mesh.0].vertices)?;
-            caster_lights.push(caster_light(&view, &caster.world_from_object, &range.near_one));
-            scene.casters.push(facts(caster, index, range, positions));
+            caster_lights.push(caster_light(&view, &caster.world_from_object, &mesh.near_one));
+            scene.casters.push(facts(caster, index, mesh, positions));
             live.push(positions);
         }
 
@@ -75,25 +77,25 @@ impl FrameDraft {
             is_active: plan.casts(index),
             live: *live,
         });
-        let casters = CasterSet::new(keys.collect(), pool.words());
+        let casters = CasterSet::new(keys.collect(), pool.position_words());
         let records = Records {
             caster_lights,
-            light_view: view.light_view(&plan.settings, &plan.counts),
+            light_views: plan.pages.iter().map(|page| view.light_view(&plan.settings, &page.counts)).collect(),
             receiver_view: view.receiver_view(&plan.settings),
         };
-        let copies = live_copies(input.casters, &live, pool.words().positions);
+        let copies = live_copies(input.casters, &live, pool.position_words());
         Ok(Self { plan, casters, records, copies })
     }
 }
 
-fn facts(caster: &CasterInput<'_>, index: usize, range: &MeshRange, live: Option<LivePositions>) -> CasterFacts {
+fn facts(caster: &CasterInput<'_>, index: usize, mesh: &PooledMesh, live: Option<LivePositions>) -> CasterFacts {
     CasterFacts {
         name: format!("caster {index}"),
         mesh: caster.mesh.0,
         // Where positions are the caller's, the CPU does not know where they are.
         bounds: live.is_none().then_some(ObjectBox {
-            min: range.bounds_min,
-            max: range.bounds_max,
+            min: mesh.topology.bounds_min,
+            max: mesh.topology.bounds_max,
             world_from_object: caster.world_from_object,
         }),
         own_position_words: live.map_or(0, LivePositions::words),

@@ -86,10 +86,12 @@ pub enum NewShadowsError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AddMeshError {
-    /// All meshes together are more than 32 bits can index.
-    #[error("with this mesh a pool would hold {words} words, at most 4294967295 can be indexed: split the scene")]
+    /// The positions of all meshes together are more than 32 bits can index.
+    #[error(
+        "with this mesh there would be {words} words of positions, at most 4294967295 can be indexed: split the scene"
+    )]
     PoolTooLarge {
-        /// Words that the largest pool would hold.
+        /// Words of positions that there would be.
         words: u64,
     },
 }

@@ -1,7 +1,7 @@
 //! Everything on the device that a frame plan lists, and the frame's commands.
 
 use contrejour_layout::{Counters, LightView};
-use contrejour_plan::{BufferKind, FramePlan, ViewCounts};
+use contrejour_plan::{BufferKind, FramePlan, PagePlan};
 
 use crate::compute::StagePipeline;
 use crate::passes;
@@ -18,9 +18,11 @@ pub(crate) struct Frame {
     pub textures: Textures,
     stages: Vec<Bound<StagePipeline>>,
     passes: Vec<Bound<MapPipeline>>,
+    /// Pages that the bind groups are for.
+    page_count: usize,
 }
 
-/// A pipeline with its bind groups, which are made again when a buffer or a texture is.
+/// A pipeline with its bind groups, one for each page, which are made again when a buffer or a texture is.
 #[derive(Debug)]
 struct Bound<P> {
     pipeline: P,
@@ -36,7 +38,8 @@ impl<P> Bound<P> {
 /// What [`Frame::follow`] made anew.
 #[derive(Debug)]
 pub(crate) struct Made {
-    pub buffers: Vec<BufferKind>,
+    /// Kinds and pages of buffers.
+    pub buffers: Vec<(BufferKind, usize)>,
     pub textures: bool,
 }
 
@@ -58,15 +61,18 @@ impl Frame {
             }
         }
 
-        let is_stale = !made.buffers.is_empty() || made.textures;
+        let page_count = plan.pages.len();
+        let is_stale = !made.buffers.is_empty() || made.textures || page_count != self.page_count;
+        self.page_count = page_count;
         for stage in &mut self.stages {
             if is_stale || stage.bind_groups.is_empty() {
-                stage.bind_groups = vec![stage.pipeline.bind(device, &self.buffers)];
+                stage.bind_groups =
+                    (0..page_count).map(|page| stage.pipeline.bind(device, &self.buffers, page)).collect();
             }
         }
         for pass in &mut self.passes {
             if is_stale || pass.bind_groups.is_empty() {
-                pass.bind_groups = pass.pipeline.bind(device, &self.buffers, &self.textures);
+                pass.bind_groups = pass.pipeline.bind(device, &self.buffers, &self.textures, page_count);
             }
         }
         made
@@ -76,20 +82,18 @@ impl Frame {
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        counts: &ViewCounts,
+        pages: &[PagePlan],
         view: &LightView,
         timer: &mut T,
     ) {
-        if let Some(counters) = self.buffers.find(BufferKind::Counters) {
+        for counters in self.buffers.all(BufferKind::Counters) {
             encoder.clear_buffer(counters, 0, Some(size_of::<Counters>() as u64));
         }
         for Bound { pipeline, bind_groups } in &self.stages {
-            for bind_group in bind_groups {
-                pipeline.encode(encoder, bind_group, &self.buffers, counts, timer);
-            }
+            pipeline.encode(encoder, bind_groups, &self.buffers, pages, timer);
         }
         for Bound { pipeline, bind_groups } in &self.passes {
-            pipeline.encode(encoder, bind_groups, (&self.buffers, &self.textures), (counts, view), timer);
+            pipeline.encode(encoder, bind_groups, (&self.buffers, &self.textures), (pages, view), timer);
         }
     }
 }

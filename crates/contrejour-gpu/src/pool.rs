@@ -1,97 +1,67 @@
-//! Meshes side by side in pooled buffers, so that one dispatch and one draw serve all of them.
+//! Meshes side by side in pooled buffers, so that one dispatch and one draw serve all of a page.
 
 use std::sync::Arc;
 
-use contrejour_layout::{Edge, Face};
+use contrejour_layout::{Caster, Edge, Face, VertexEdge};
 use contrejour_mesh::{EdgeClass, TopologyAwareMesh};
-use contrejour_plan::{BufferKind, MeshFacts, NearOne};
+use contrejour_plan::{BufferKind, DeviceFacts, MeshFacts, MeshPiece, NearOne, PagePlan};
+
+use crate::pieces::{mesh_pieces, vertex_edges_of_piece};
 
 /// A mesh that was given to [`Shadows::add_mesh`](crate::Shadows::add_mesh).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MeshHandle(pub(crate) usize);
 
-/// Where a mesh lies in the pools, and what a caster record says of it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MeshRange {
-    pub first_position_word: u32,
-    pub first_face: u32,
-    pub face_count: u32,
-    pub first_edge: u32,
-    pub edge_count: u32,
-    pub first_incidence: u32,
-    pub first_vertex_offset_word: u32,
-    pub first_vertex_edge_word: u32,
-    pub near_one: NearOne,
-    pub bounds_min: [f32; 3],
-    pub bounds_max: [f32; 3],
-}
-
 /// All meshes. They are kept as they came; a pool is filled when the plan first asks for it.
 #[derive(Debug, Default)]
 pub(crate) struct MeshPool {
-    meshes: Vec<Arc<TopologyAwareMesh>>,
-    ranges: Vec<MeshRange>,
+    meshes: Vec<PooledMesh>,
     facts: Vec<MeshFacts>,
-    words: PoolWords,
+    pieces: Vec<MeshPiece>,
+    position_words: u64,
 }
 
-/// Words in each pool.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct PoolWords {
-    pub positions: u64,
-    pub faces: u64,
-    pub edges: u64,
-    pub incidences: u64,
-    pub vertex_edges: u64,
+#[derive(Debug)]
+pub(crate) struct PooledMesh {
+    pub topology: Arc<TopologyAwareMesh>,
+    pub first_position_word: u32,
+    pub near_one: NearOne,
+}
+
+/// Where a piece begins in the pools of its page.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PiecePlace {
+    face: u32,
+    edge: u32,
+    incidence: u32,
+    vertex_offset_word: u32,
+    vertex_edge_word: u32,
 }
 
 const WORDS_PER_POSITION: u64 = 3;
-const WORDS_PER_FACE: u64 = (size_of::<Face>() / 4) as u64;
-const WORDS_PER_EDGE: u64 = (size_of::<Edge>() / 4) as u64;
-
-impl PoolWords {
-    fn largest(&self) -> u64 {
-        [self.positions, self.faces, self.edges, self.incidences, self.vertex_edges].into_iter().fold(0, u64::max)
-    }
-}
 
 impl MeshPool {
-    /// Adds a mesh; `Err` holds the words that a pool would need, more than 32 bits can index.
-    pub fn add(&mut self, mesh: Arc<TopologyAwareMesh>) -> Result<MeshHandle, u64> {
-        let before = self.words;
-        let offsets = mesh.vertex_edge_offsets.len() as u64;
-        let after = PoolWords {
-            positions: before.positions + WORDS_PER_POSITION * mesh.positions.len() as u64,
-            faces: before.faces + WORDS_PER_FACE * mesh.faces.len() as u64,
-            edges: before.edges + WORDS_PER_EDGE * u64::from(mesh.candidate_edge_count),
-            incidences: before.incidences + mesh.incidences.len() as u64,
-            vertex_edges: before.vertex_edges + offsets + 2 * mesh.vertex_edges.len() as u64,
-        };
-        if after.largest() > u64::from(u32::MAX) {
-            return Err(after.largest());
+    /// Adds a mesh; `Err` holds the words of positions that there would be, more than 32 bits can index.
+    pub fn add(&mut self, topology: Arc<TopologyAwareMesh>, device: &DeviceFacts) -> Result<MeshHandle, u64> {
+        let words = self.position_words + WORDS_PER_POSITION * topology.positions.len() as u64;
+        if words > u64::from(u32::MAX) {
+            return Err(words);
         }
-        self.ranges.push(MeshRange {
-            first_position_word: before.positions as u32,
-            first_face: (before.faces / WORDS_PER_FACE) as u32,
-            face_count: mesh.faces.len() as u32,
-            first_edge: (before.edges / WORDS_PER_EDGE) as u32,
-            edge_count: mesh.candidate_edge_count,
-            first_incidence: before.incidences as u32,
-            first_vertex_offset_word: before.vertex_edges as u32,
-            first_vertex_edge_word: (before.vertex_edges + offsets) as u32,
-            near_one: NearOne::of_box(mesh.bounds_min, mesh.bounds_max),
-            bounds_min: mesh.bounds_min,
-            bounds_max: mesh.bounds_max,
+        let index = self.meshes.len();
+        self.facts.push(mesh_facts(&topology));
+        self.pieces.extend(mesh_pieces(&topology, index, device));
+        self.meshes.push(PooledMesh {
+            first_position_word: self.position_words as u32,
+            near_one: NearOne::of_box(topology.bounds_min, topology.bounds_max),
+            topology,
         });
-        self.facts.push(mesh_facts(&mesh));
-        self.words = after;
-        self.meshes.push(mesh);
-        Ok(MeshHandle(self.meshes.len() - 1))
+        self.position_words = words;
+        Ok(MeshHandle(index))
     }
 
-    /// Where a mesh lies; `None` for a handle of another object.
-    pub fn range(&self, handle: MeshHandle) -> Option<&MeshRange> {
-        self.ranges.get(handle.0)
+    /// A mesh; `None` for a handle of another object.
+    pub fn get(&self, handle: MeshHandle) -> Option<&PooledMesh> {
+        self.meshes.get(handle.0)
     }
 
     /// What the frame plan needs to know of each mesh.
@@ -99,36 +69,89 @@ impl MeshPool {
         &self.facts
     }
 
-    pub fn words(&self) -> PoolWords {
-        self.words
+    /// The pieces of the meshes that are too large for one page.
+    pub fn pieces(&self) -> &[MeshPiece] {
+        &self.pieces
     }
 
-    /// Writes a whole pool with `write(byte offset, bytes)`.
-    pub fn fill(&self, kind: BufferKind, mut write: impl FnMut(u64, &[u8])) {
-        for (mesh, range) in self.meshes.iter().zip(&self.ranges) {
-            let mut put = |word: u64, bytes: &[u8]| {
-                if !bytes.is_empty() {
-                    write(4 * word, bytes);
-                }
-            };
+    /// Words of all meshes' own positions.
+    pub fn position_words(&self) -> u64 {
+        self.position_words
+    }
+
+    /// Where each piece of a page begins.
+    pub fn places(&self, page: &PagePlan) -> Vec<PiecePlace> {
+        let mut next = PiecePlace::default();
+        let place = |piece: &MeshPiece| {
+            let offsets = self.facts[piece.mesh].vertices + 1;
+            next.vertex_edge_word = next.vertex_offset_word + offsets;
+            let place = next;
+            next.face += piece.faces;
+            next.edge += piece.edges();
+            next.incidence += piece.incidence_words;
+            next.vertex_offset_word += offsets + 2 * piece.vertex_edges;
+            place
+        };
+        page.pieces.iter().map(place).collect()
+    }
+
+    /// A caster record of a piece, without what belongs to the caster alone.
+    pub fn record(&self, piece: &MeshPiece, place: &PiecePlace) -> Caster {
+        let mesh = &self.meshes[piece.mesh];
+        Caster {
+            first_position_word: mesh.first_position_word,
+            position_stride_words: WORDS_PER_POSITION as u32,
+            first_face: place.face.wrapping_sub(piece.first_face),
+            face_count: mesh.topology.faces.len() as u32,
+            first_edge: place.edge.wrapping_sub(piece.first_edge),
+            edge_count: mesh.topology.candidate_edge_count,
+            first_incidence: place.incidence.wrapping_sub(piece.first_incidence_word),
+            first_vertex_offset_word: place.vertex_offset_word,
+            first_vertex_edge_word: place.vertex_edge_word,
+            first_lit_word: 0,
+            first_outline_word: 0,
+            position_scale: mesh.near_one.scale,
+            position_origin: mesh.near_one.origin,
+            unused_0: 0,
+        }
+    }
+
+    /// Writes all meshes' own positions with `write(byte offset, bytes)`.
+    pub fn fill_positions(&self, mut write: impl FnMut(u64, &[u8])) {
+        for mesh in &self.meshes {
+            write(4 * u64::from(mesh.first_position_word), bytemuck::cast_slice(&mesh.topology.positions));
+        }
+    }
+
+    /// Writes a whole pool of a page with `write(byte offset, bytes)`.
+    pub fn fill(&self, kind: BufferKind, page: &PagePlan, mut write: impl FnMut(u64, &[u8])) {
+        for (piece, place) in page.pieces.iter().zip(self.places(page)) {
+            let mesh = &*self.meshes[piece.mesh].topology;
             match kind {
-                BufferKind::Positions => {
-                    put(u64::from(range.first_position_word), bytemuck::cast_slice(&mesh.positions));
-                }
                 BufferKind::Faces => {
-                    put(WORDS_PER_FACE * u64::from(range.first_face), bytemuck::cast_slice(&mesh.faces));
+                    let faces = &mesh.faces[piece.first_face as usize..][..piece.faces as usize];
+                    write(size_of::<Face>() as u64 * u64::from(place.face), bytemuck::cast_slice(faces));
                 }
                 BufferKind::Edges => {
-                    let candidates = &mesh.edges[..mesh.candidate_edge_count as usize];
-                    put(WORDS_PER_EDGE * u64::from(range.first_edge), bytemuck::cast_slice(candidates));
+                    let edges = &mesh.edges[piece.first_edge as usize..][..piece.edges() as usize];
+                    write(size_of::<Edge>() as u64 * u64::from(place.edge), bytemuck::cast_slice(edges));
                 }
                 BufferKind::Incidences => {
-                    put(u64::from(range.first_incidence), bytemuck::cast_slice(&mesh.incidences));
+                    let lists = &mesh.incidences[piece.first_incidence_word as usize..];
+                    let lists = &lists[..piece.incidence_words as usize];
+                    write(4 * u64::from(place.incidence), bytemuck::cast_slice(lists));
                 }
                 BufferKind::VertexEdges => {
-                    let offsets = bytemuck::cast_slice(&mesh.vertex_edge_offsets);
-                    put(u64::from(range.first_vertex_offset_word), offsets);
-                    put(u64::from(range.first_vertex_edge_word), bytemuck::cast_slice(&mesh.vertex_edges));
+                    let mut put = |offsets: &[u32], lists: &[VertexEdge]| {
+                        write(4 * u64::from(place.vertex_offset_word), bytemuck::cast_slice(offsets));
+                        write(4 * u64::from(place.vertex_edge_word), bytemuck::cast_slice(lists));
+                    };
+                    if *piece == MeshPiece::whole(piece.mesh, &self.facts[piece.mesh]) {
+                        put(&mesh.vertex_edge_offsets, &mesh.vertex_edges);
+                    } else {
+                        let (offsets, lists) = vertex_edges_of_piece(mesh, piece);
+                        put(&offsets, &lists);
+                    }
                 }
                 _ => {}
             }

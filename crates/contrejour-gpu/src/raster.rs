@@ -1,7 +1,7 @@
 //! A raster pass over a light view's maps on the device.
 
 use contrejour_layout::{BLOCK_SIZE, DrawArgs, LightView};
-use contrejour_plan::{BufferKind, EntryPoints, FramePlan, Pass, PipelinePlan, TextureKind, ViewCounts};
+use contrejour_plan::{BufferKind, EntryPoints, FramePlan, PagePlan, Pass, PipelinePlan, TextureKind};
 
 use crate::passes::{ClearColor, DrawCount, Levels, MapPass};
 use crate::resources::{Buffers, Textures, UNFILTERED_FLOAT, binding_type, format};
@@ -83,40 +83,54 @@ impl MapPipeline {
         self.description.pass
     }
 
-    /// One bind group for each level that the pass fills.
-    pub fn bind(&self, device: &wgpu::Device, buffers: &Buffers, textures: &Textures) -> Vec<wgpu::BindGroup> {
-        let kinds = bound_buffers(self.pass());
-        let bind = |read: Option<&wgpu::TextureView>| {
-            let texture = read.map(|view| (kinds.len() as u32, view));
-            buffers.bind(device, self.pass().name(), &self.layout, &kinds, texture)
-        };
-        match (self.description.levels, self.description.reads) {
-            (Levels::AllButFirst, Some(kind)) => {
-                let levels = textures.levels(kind);
-                levels[..levels.len() - 1].iter().map(|finer| bind(Some(finer))).collect()
-            }
-            (_, read) => vec![bind(read.map(|kind| textures.view(kind)))],
-        }
+    /// How many of the pages it draws: what covers the whole map is drawn once.
+    fn drawn_pages(&self, page_count: usize) -> usize {
+        let is_drawn_once = self.description.draws.iter().any(|draw| matches!(draw, DrawCount::FullScreen));
+        if is_drawn_once { 1 } else { page_count }
     }
 
-    /// Records the pass, once for each level that it fills.
+    /// One bind group for each page that the pass draws, level by level.
+    pub fn bind(
+        &self,
+        device: &wgpu::Device,
+        buffers: &Buffers,
+        textures: &Textures,
+        page_count: usize,
+    ) -> Vec<wgpu::BindGroup> {
+        let kinds = bound_buffers(self.pass());
+        let bind = |page: usize, read: Option<&wgpu::TextureView>| {
+            let texture = read.map(|view| (kinds.len() as u32, view));
+            buffers.bind(device, self.pass().name(), &self.layout, (&kinds, page), texture)
+        };
+        let reads: Vec<_> = match (self.description.levels, self.description.reads) {
+            (Levels::AllButFirst, Some(kind)) => {
+                let levels = textures.levels(kind);
+                levels[..levels.len() - 1].iter().map(Some).collect()
+            }
+            (_, read) => vec![read.map(|kind| textures.view(kind))],
+        };
+        let pages = 0..self.drawn_pages(page_count);
+        reads.iter().flat_map(|read| pages.clone().map(|page| bind(page, *read))).collect()
+    }
+
+    /// Records the pass over all pages, once for each level that it fills.
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         bind_groups: &[wgpu::BindGroup],
         (buffers, textures): (&Buffers, &Textures),
-        (counts, view): (&ViewCounts, &LightView),
+        (pages, view): (&[PagePlan], &LightView),
         timer: &mut T,
     ) {
         let first_level = if self.description.levels == Levels::First { 0 } else { 1 };
-        for (bind_group, level) in bind_groups.iter().zip(first_level..) {
+        for (bind_groups, level) in bind_groups.chunks(self.drawn_pages(pages.len())).zip(first_level..) {
             let query = timer.begin(self.description.pass.name(), encoder);
             self.encode_level(
                 encoder,
-                bind_group,
+                bind_groups,
                 level,
                 (buffers, textures),
-                (counts, view),
+                (pages, view),
                 T::render_writes(&query),
             );
             timer.end(query, encoder);
@@ -126,10 +140,10 @@ impl MapPipeline {
     fn encode_level(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        bind_group: &wgpu::BindGroup,
+        bind_groups: &[wgpu::BindGroup],
         level: usize,
         (buffers, textures): (&Buffers, &Textures),
-        (counts, view): (&ViewCounts, &LightView),
+        (pages, view): (&[PagePlan], &LightView),
         timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         let color = self.description.color.map(|target| {
@@ -156,15 +170,17 @@ impl MapPipeline {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_bind_group(0, bind_group, &[]);
         for (count, pipeline) in self.description.draws.iter().zip(&self.pipelines) {
             pass.set_pipeline(pipeline);
-            match *count {
-                DrawCount::FaceItems => pass.draw(0..counts.face_items * BLOCK_SIZE * 3, 0..1),
-                DrawCount::FullScreen => pass.draw(0..3, 0..1),
-                DrawCount::Indirect(index) => {
-                    let offset = u64::from(index) * size_of::<DrawArgs>() as u64;
-                    pass.draw_indirect(buffers.get(BufferKind::DrawArgs), offset);
+            for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
+                pass.set_bind_group(0, bind_group, &[]);
+                match *count {
+                    DrawCount::FaceItems => pass.draw(0..page.counts.face_items * BLOCK_SIZE * 3, 0..1),
+                    DrawCount::FullScreen => pass.draw(0..3, 0..1),
+                    DrawCount::Indirect(entry) => {
+                        let offset = u64::from(entry) * size_of::<DrawArgs>() as u64;
+                        pass.draw_indirect(buffers.get(BufferKind::DrawArgs, index), offset);
+                    }
                 }
             }
         }

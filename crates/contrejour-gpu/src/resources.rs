@@ -25,24 +25,26 @@ pub(crate) const DEPTH: wgpu::BindingType = wgpu::BindingType::Texture {
     multisampled: false,
 };
 
-/// The buffers that the plan lists.
+/// The buffers that the plan lists, by kind and page.
 #[derive(Debug, Default)]
 pub(crate) struct Buffers {
-    by_kind: BTreeMap<BufferKind, wgpu::Buffer>,
+    by_place: BTreeMap<(BufferKind, usize), wgpu::Buffer>,
 }
 
 impl Buffers {
     /// Makes what the plan lists and does not exist in that size, drops what it does not list; returns what was made.
-    pub fn follow(&mut self, device: &wgpu::Device, plan: &FramePlan) -> Vec<BufferKind> {
-        self.by_kind.retain(|kind, buffer| plan.buffer(*kind).is_some_and(|listed| listed.bytes == buffer.size()));
+    pub fn follow(&mut self, device: &wgpu::Device, plan: &FramePlan) -> Vec<(BufferKind, usize)> {
+        let listed: BTreeMap<_, _> =
+            plan.buffers.iter().map(|listed| ((listed.kind, listed.page), listed.bytes)).collect();
+        self.by_place.retain(|place, buffer| listed.get(place) == Some(&buffer.size()));
         let mut made = Vec::new();
-        for listed in &plan.buffers {
-            self.by_kind.entry(listed.kind).or_insert_with(|| {
-                made.push(listed.kind);
+        for (place, bytes) in listed {
+            self.by_place.entry(place).or_insert_with(|| {
+                made.push(place);
                 device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some(listed.kind.name()),
-                    size: listed.bytes,
-                    usage: usage(listed.kind),
+                    label: Some(place.0.name()),
+                    size: bytes,
+                    usage: usage(place.0),
                     mapped_at_creation: false,
                 })
             });
@@ -50,8 +52,14 @@ impl Buffers {
         made
     }
 
-    pub fn find(&self, kind: BufferKind) -> Option<&wgpu::Buffer> {
-        self.by_kind.get(&kind)
+    /// The buffer of a page, or the one that serves all pages.
+    pub fn find(&self, kind: BufferKind, page: usize) -> Option<&wgpu::Buffer> {
+        self.by_place.get(&(kind, if kind.is_paged() { page } else { 0 }))
+    }
+
+    /// The buffers of a kind, page by page.
+    pub fn all(&self, kind: BufferKind) -> impl Iterator<Item = &wgpu::Buffer> {
+        self.by_place.range((kind, 0)..=(kind, usize::MAX)).map(|(_, buffer)| buffer)
     }
 
     /// A buffer that the plan lists, since it lists a stage that binds it.
@@ -59,26 +67,26 @@ impl Buffers {
     /// # Panics
     ///
     /// When the plan lists a stage without its buffers: a defect of the plan, which its tests rule out.
-    pub fn get(&self, kind: BufferKind) -> &wgpu::Buffer {
-        match self.find(kind) {
+    pub fn get(&self, kind: BufferKind, page: usize) -> &wgpu::Buffer {
+        match self.find(kind, page) {
             Some(buffer) => buffer,
             None => panic!("the frame plan lists no buffer `{}` for a stage that binds it", kind.name()),
         }
     }
 
-    /// A bind group of buffers in the order of their bindings, and a texture.
+    /// A bind group of a page's buffers in the order of their bindings, and a texture.
     pub fn bind(
         &self,
         device: &wgpu::Device,
         label: &str,
         layout: &wgpu::BindGroupLayout,
-        kinds: &[BufferKind],
+        (kinds, page): (&[BufferKind], usize),
         texture: Option<(u32, &wgpu::TextureView)>,
     ) -> wgpu::BindGroup {
-        let buffers = kinds
-            .iter()
-            .zip(0..)
-            .map(|(kind, binding)| wgpu::BindGroupEntry { binding, resource: self.get(*kind).as_entire_binding() });
+        let buffers = kinds.iter().zip(0..).map(|(kind, binding)| wgpu::BindGroupEntry {
+            binding,
+            resource: self.get(*kind, page).as_entire_binding(),
+        });
         let textures = texture.map(|(binding, view)| wgpu::BindGroupEntry {
             binding,
             resource: wgpu::BindingResource::TextureView(view),

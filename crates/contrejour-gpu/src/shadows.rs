@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use contrejour_layout::{CasterLight, Counters, EyeView};
 use contrejour_mesh::TopologyAwareMesh;
-use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, TextureKind, VisibilityKind};
+use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, PagePlan, TextureKind, VisibilityKind};
 
 use crate::casters::CasterSet;
 use crate::device_watch::{DeviceWatch, OpenScopes};
@@ -97,9 +97,9 @@ impl Shadows {
     ///
     /// # Errors
     ///
-    /// All meshes together are more than 32 bits can index.
+    /// The positions of all meshes together are more than 32 bits can index.
     pub fn add_mesh(&mut self, mesh: Arc<TopologyAwareMesh>) -> Result<MeshHandle, AddMeshError> {
-        self.pool.add(mesh).map_err(|words| AddMeshError::PoolTooLarge { words })
+        self.pool.add(mesh, &self.device_facts).map_err(|words| AddMeshError::PoolTooLarge { words })
     }
 
     /// Prepares a frame: follows the frame plan, uploads the records of light and casters.
@@ -136,13 +136,15 @@ impl Shadows {
     pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
         let Some(plan) = self.plan.as_ref().filter(|_| !self.stats.is_unchanged) else { return };
         for copy in &self.copies {
-            let target = self.frame.buffers.get(BufferKind::Positions);
+            let target = self.frame.buffers.get(BufferKind::Positions, 0);
             encoder.copy_buffer_to_buffer(&copy.source, copy.source_offset, target, copy.target_offset, copy.size);
         }
         self.is_encoded = true;
-        self.frame.encode(encoder, &plan.counts, &self.records.light_view, timer);
-        if let Some(counters) = self.frame.buffers.find(BufferKind::Counters) {
-            self.readback.copy(encoder, counters, plan.capacity());
+        let [view, ..] = self.records.light_views.as_slice() else { return };
+        self.frame.encode(encoder, &plan.pages, view, timer);
+        if self.counts() {
+            let capacities = plan.pages.iter().map(PagePlan::capacity).collect();
+            self.readback.copy(encoder, self.frame.buffers.all(BufferKind::Counters), capacities);
         }
     }
 
@@ -238,9 +240,16 @@ impl Shadows {
     }
 
     /// A buffer of the frame, where the plan lists it: the silhouette list and its counters stay here for stages of
-    /// the caller's. A later [`prepare`](Self::prepare) may replace it.
+    /// the caller's. A later [`prepare`](Self::prepare) may replace it. Where a scene fills several pages this is the
+    /// first one's: [`buffers`](Self::buffers) are all.
     pub fn buffer(&self, kind: BufferKind) -> Option<&wgpu::Buffer> {
-        self.frame.buffers.find(kind)
+        self.frame.buffers.find(kind, 0)
+    }
+
+    /// The buffers of a kind: one for each of the [plan's pages](FramePlan::pages), or one that serves all pages. A
+    /// scene has more than one page where its meshes are too large for the device's buffers.
+    pub fn buffers(&self, kind: BufferKind) -> impl Iterator<Item = &wgpu::Buffer> {
+        self.frame.buffers.all(kind)
     }
 
     /// The plan of the last prepared frame.
@@ -256,8 +265,12 @@ impl Shadows {
     /// Whether the latest counted frame had room for all its quads and corners. While it had not, prepare and encode
     /// once more.
     pub fn is_complete(&self) -> bool {
-        let counts_nothing = self.frame.buffers.find(BufferKind::Counters).is_none();
-        self.plan.is_some() && (counts_nothing || self.latest_is_complete)
+        self.plan.is_some() && (!self.counts() || self.latest_is_complete)
+    }
+
+    /// Whether the frame counts anything.
+    fn counts(&self) -> bool {
+        self.frame.buffers.find(BufferKind::Counters, 0).is_some()
     }
 
     /// Waits until the submitted frames are done and returns the counters of the last one. For tools and tests: a
@@ -284,15 +297,18 @@ impl Shadows {
 
     /// Takes the counters that have arrived: counts overflows and grows what was too short.
     fn collect_counters(&mut self) {
-        for frame in self.readback.arrived() {
-            if !frame.capacity.holds(&frame.counters) {
-                self.stats.overflow_frames += 1;
-                let grown = frame.capacity.grown_for(&frame.counters);
-                self.capacity.quads = self.capacity.quads.max(grown.quads);
-                self.capacity.corners = self.capacity.corners.max(grown.corners);
+        for pages in self.readback.arrived() {
+            self.latest_is_complete = pages.iter().all(|page| page.capacity.holds(&page.counters));
+            self.stats.overflow_frames += u64::from(!self.latest_is_complete);
+            // Where a page lacks room all get it: what moves may next be on another one.
+            for page in &pages {
+                let grown = page.capacity.grown_for(&page.counters);
+                if !page.capacity.holds(&page.counters) {
+                    self.capacity.quads = self.capacity.quads.max(grown.quads);
+                    self.capacity.corners = self.capacity.corners.max(grown.corners);
+                }
             }
-            self.stats.counters = Some(frame.counters);
-            self.latest_is_complete = frame.capacity.holds(&frame.counters);
+            self.stats.counters = Some(pages.iter().map(|page| page.counters).sum());
         }
     }
 
@@ -314,21 +330,32 @@ impl Shadows {
     fn make(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, draft: &FrameDraft) -> u64 {
         let made = self.frame.follow(device, &draft.plan);
         self.follow_visibility(device, &draft.plan, &made);
+        self.readback.make_room(device, draft.plan.pages.len());
 
         let mut bytes = 0;
-        let mut write = |kind: BufferKind, offset: u64, data: &[u8]| {
-            if let Some(buffer) = self.frame.buffers.find(kind).filter(|_| !data.is_empty()) {
+        let mut write = |(kind, page): (BufferKind, usize), offset: u64, data: &[u8]| {
+            if let Some(buffer) = self.frame.buffers.find(kind, page).filter(|_| !data.is_empty()) {
                 queue.write_buffer(buffer, offset, data);
                 bytes += data.len() as u64;
             }
         };
-        for &kind in &made.buffers {
-            self.pool.fill(kind, |offset, data| write(kind, offset, data));
+        if made.buffers.contains(&(BufferKind::Positions, 0)) {
+            self.pool.fill_positions(|offset, data| write((BufferKind::Positions, 0), offset, data));
         }
-        let table = draft.casters.table(&self.pool);
-        write(BufferKind::Casters, 0, bytemuck::cast_slice(&table.casters));
-        write(BufferKind::FaceItems, 0, bytemuck::cast_slice(&table.face_items));
-        write(BufferKind::EdgeItems, 0, bytemuck::cast_slice(&table.edge_items));
+        let old_pages = self.plan.as_ref().map_or(&[][..], |plan| &plan.pages);
+        for (page, index) in draft.plan.pages.iter().zip(0..) {
+            let holds_others = old_pages.get(index).is_none_or(|old| old.pieces != page.pieces);
+            for kind in MESH_POOLS {
+                if holds_others || made.buffers.contains(&(kind, index)) {
+                    self.pool.fill(kind, page, |offset, data| write((kind, index), offset, data));
+                }
+            }
+        }
+        for (table, page) in draft.casters.tables(&self.pool, &draft.plan.pages).iter().zip(0..) {
+            write((BufferKind::Casters, page), 0, bytemuck::cast_slice(&table.casters));
+            write((BufferKind::FaceItems, page), 0, bytemuck::cast_slice(&table.face_items));
+            write((BufferKind::EdgeItems, page), 0, bytemuck::cast_slice(&table.edge_items));
+        }
         bytes
     }
 
@@ -337,6 +364,7 @@ impl Shadows {
         if made.is_err() {
             self.frame = Frame::default();
             self.visibility = None;
+            self.readback.drop_room();
             self.plan = None;
             self.casters = CasterSet::default();
             self.latest_is_complete = false;
@@ -351,7 +379,7 @@ impl Shadows {
         if self.visibility.as_ref().map(|visibility| visibility.kind) != kind {
             self.visibility = kind.map(|kind| Visibility::new(device, kind, buffers, textures));
         } else if let Some(visibility) = &mut self.visibility
-            && (made.textures || made.buffers.contains(&BufferKind::ReceiverView))
+            && (made.textures || made.buffers.contains(&(BufferKind::ReceiverView, 0)))
         {
             visibility.bind_again(device, buffers, textures);
         }
@@ -372,17 +400,17 @@ impl Shadows {
             plan.casting.iter().filter(|caster| has_no_image(&records.caster_lights[**caster])).count() as u32;
         self.stats.singular_casters = plan.singular_casters;
         if !is_same {
-            let records: [(BufferKind, &[u8]); 3] = [
-                (BufferKind::CasterLights, bytemuck::cast_slice(&records.caster_lights)),
-                (BufferKind::LightView, bytemuck::bytes_of(&records.light_view)),
-                (BufferKind::ReceiverView, bytemuck::bytes_of(&records.receiver_view)),
-            ];
-            for (kind, bytes) in records {
-                if let Some(buffer) = self.frame.buffers.find(kind).filter(|_| !bytes.is_empty()) {
+            let mut write = |(kind, page), bytes: &[u8]| {
+                if let Some(buffer) = self.frame.buffers.find(kind, page).filter(|_| !bytes.is_empty()) {
                     queue.write_buffer(buffer, 0, bytes);
                     self.stats.upload_bytes += bytes.len() as u64;
                 }
+            };
+            write((BufferKind::CasterLights, 0), bytemuck::cast_slice(&records.caster_lights));
+            for (light_view, page) in records.light_views.iter().zip(0..) {
+                write((BufferKind::LightView, page), bytemuck::bytes_of(light_view));
             }
+            write((BufferKind::ReceiverView, 0), bytemuck::bytes_of(&records.receiver_view));
             self.is_encoded = false;
         }
         self.plan = Some(plan);
@@ -400,6 +428,10 @@ fn planned_bytes(plan: &FramePlan) -> u64 {
     let buffers = plan.buffers.iter().map(|buffer| buffer.bytes);
     buffers.chain(plan.textures.iter().map(|texture| texture.bytes)).sum()
 }
+
+/// The pools that meshes fill page by page.
+const MESH_POOLS: [BufferKind; 4] =
+    [BufferKind::Faces, BufferKind::Edges, BufferKind::Incidences, BufferKind::VertexEdges];
 
 /// How long a callback may take once the device is idle.
 const CALLBACK_PATIENCE: Duration = Duration::from_secs(2);

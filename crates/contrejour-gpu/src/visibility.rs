@@ -43,7 +43,7 @@ fn bind(
     sampler: Option<&wgpu::Sampler>,
     (buffers, textures): (&Buffers, &Textures),
 ) -> wgpu::BindGroup {
-    let view = buffers.get(BufferKind::ReceiverView).as_entire_binding();
+    let view = buffers.get(BufferKind::ReceiverView, 0).as_entire_binding();
     let maps = kind.textures().iter().map(|map| wgpu::BindingResource::TextureView(textures.view(*map)));
     let sampler = sampler.map(wgpu::BindingResource::Sampler);
     let resources = std::iter::once(view).chain(maps).chain(sampler);

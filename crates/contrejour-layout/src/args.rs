@@ -24,6 +24,21 @@ shared_struct! {
     }
 }
 
+/// A frame counts page by page. The sum saturates.
+impl core::iter::Sum for Counters {
+    fn sum<I: Iterator<Item = Self>>(pages: I) -> Self {
+        pages.fold(Self::default(), |sum, page| Self {
+            undecided_near: sum.undecided_near.saturating_add(page.undecided_near),
+            undecided_far: sum.undecided_far.saturating_add(page.undecided_far),
+            silhouette_edges: sum.silhouette_edges.saturating_add(page.silhouette_edges),
+            quads: sum.quads.saturating_add(page.quads),
+            corners: sum.corners.saturating_add(page.corners),
+            point_edges: sum.point_edges.saturating_add(page.point_edges),
+            ..sum
+        })
+    }
+}
+
 shared_struct! {
     /// Arguments of an indirect dispatch, in workgroups.
     DispatchArgs {

@@ -64,20 +64,24 @@ shared_struct! {
 
 shared_struct! {
     /// One mesh that casts a shadow: where its parts lie in the pooled buffers.
+    ///
+    /// Where a mesh fills several pages, each page has a record of it, with the faces and edges that lie there: ids are
+    /// those of the whole mesh on each page. So where face or edge 0 lies elsewhere, its place may be below zero; sums
+    /// of a place and an id wrap.
     Caster {
         /// Where its positions start, in words.
         first_position_word: u32,
         /// From one position to the next, in words; at least 3.
         position_stride_words: u32,
-        /// Its first face in the pool of faces.
+        /// Where its face 0 lies, or would lie, in the pool of faces.
         first_face: u32,
         /// Number of its faces.
         face_count: u32,
-        /// Its first edge in the pool of edges.
+        /// Where its edge 0 lies, or would lie, in the pool of edges.
         first_edge: u32,
         /// Number of its edges that can be in a silhouette.
         edge_count: u32,
-        /// Where its incidence lists start in the pool of incidence words.
+        /// Where its incidence lists start, or would start, in the pool of incidence words.
         first_incidence: u32,
         /// Where its vertex offsets start in the pool of vertex edges, in words. `offset[v] .. offset[v + 1]` are
         /// the vertex edges of vertex `v`.

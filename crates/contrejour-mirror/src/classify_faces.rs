@@ -47,7 +47,7 @@ impl ClassifyFaces<'_> {
 
         let first_face = item.block * BLOCK_SIZE;
         for face_id in first_face..caster.face_count.min(first_face + BLOCK_SIZE) {
-            let face = self.faces[(caster.first_face + face_id) as usize];
+            let face = self.faces[caster.first_face.wrapping_add(face_id) as usize];
             let face_ref = FaceRef { caster: item.caster, face_id };
             match classify(caster, caster_light, face, self.positions) {
                 Verdict::Lit => set_lit(self.lit, caster, face_ref),

@@ -48,7 +48,7 @@ impl DetectSilhouette<'_> {
             let first_edge_id = item.block * BLOCK_SIZE;
             let end_edge_id = caster.edge_count.min(first_edge_id + BLOCK_SIZE);
             for edge_id in first_edge_id..end_edge_id {
-                let edge = &self.edges[(caster.first_edge + edge_id) as usize];
+                let edge = &self.edges[caster.first_edge.wrapping_add(edge_id) as usize];
                 let sides = count_sides(caster, edge, self.incidences, self.lit);
 
                 // Append the silhouette.
@@ -74,7 +74,7 @@ impl DetectSilhouette<'_> {
 fn count_sides(caster: &Caster, edge: &Edge, incidences: &[u32], lit: &[u32]) -> Sides {
     let pair = [edge.first, edge.second];
     let words = if edge.first == INCIDENCE_LIST {
-        let list = (caster.first_incidence + edge.second) as usize;
+        let list = caster.first_incidence.wrapping_add(edge.second) as usize;
         &incidences[list + 1..][..incidences[list] as usize]
     } else {
         &pair

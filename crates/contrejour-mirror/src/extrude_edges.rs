@@ -59,7 +59,7 @@ impl ExtrudeEdges<'_> {
         // Project.
         let caster = &self.casters[silhouette.caster as usize];
         let clip_from_object = clip_from_object(&self.caster_lights[silhouette.caster as usize]);
-        let edge = &self.edges[(caster.first_edge + silhouette.edge_id) as usize];
+        let edge = &self.edges[caster.first_edge.wrapping_add(silhouette.edge_id) as usize];
         let low = scaled_position(caster, self.positions, edge.low_vertex);
         let high = scaled_position(caster, self.positions, edge.high_vertex);
         let Some(direction) = image_direction(&clip_from_object, low, high) else {

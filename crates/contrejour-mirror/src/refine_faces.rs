@@ -31,7 +31,7 @@ impl RefineFaces<'_> {
         for face_ref in &self.undecided[..count as usize] {
             let caster = &self.casters[face_ref.caster as usize];
             let caster_light = &self.caster_lights[face_ref.caster as usize];
-            let face = self.faces[(caster.first_face + face_ref.face_id) as usize];
+            let face = self.faces[caster.first_face.wrapping_add(face_ref.face_id) as usize];
             let bits = FacingBits::read(caster, caster_light, face, self.positions);
             if is_determinant_positive(&bits) {
                 set_lit(self.lit, caster, *face_ref);

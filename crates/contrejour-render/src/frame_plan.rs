@@ -1,6 +1,6 @@
 //! What a frame of a scene does, known before there is a device.
 
-use contrejour_gpu::mesh_facts;
+use contrejour_gpu::{mesh_facts, mesh_pieces};
 use contrejour_plan::{
     Capacity, CasterFacts, DeviceFacts, FramePlan, LightError, ObjectBox, Outputs, PlanError, PlanInput, SceneFacts,
     ShadowSettings, views,
@@ -36,6 +36,9 @@ pub fn frame_plan(scene: &Scene, settings: &ShadowSettings, device: &DeviceFacts
     let casters = Casters::new(scene, &local)?;
     let facts = SceneFacts {
         meshes: casters.topologies.iter().map(|topology| mesh_facts(topology)).collect(),
+        pieces: (casters.topologies.iter().enumerate())
+            .flat_map(|(mesh, topology)| mesh_pieces(topology, mesh, device))
+            .collect(),
         casters: (casters.placed.iter())
             .map(|caster| {
                 let topology = casters.topology(caster);

@@ -110,53 +110,62 @@ fn median(values: &[f64]) -> Option<f64> {
 /// The counters of every frame, kept on the device until somebody asks, so that no frame waits for them.
 #[derive(Debug, Default)]
 pub(crate) struct CounterLog {
-    full_pages: Vec<wgpu::Buffer>,
-    page: Option<wgpu::Buffer>,
-    frames_in_page: u64,
+    full_sheets: Vec<wgpu::Buffer>,
+    sheet: Option<wgpu::Buffer>,
+    entries_in_sheet: u64,
+    /// Entries of each frame: one for each page of its scene.
+    frames: Vec<usize>,
 }
 
-/// Frames in one page of the log.
-const FRAMES_PER_PAGE: u64 = 256;
+/// Counters in one buffer of the log.
+const ENTRIES_PER_SHEET: u64 = 256;
 
 const COUNTERS_BYTES: u64 = size_of::<Counters>() as u64;
 
 impl CounterLog {
     /// Records the copy of this frame's counters.
     pub fn record(&mut self, gpu: &Gpu, shadows: &Shadows, encoder: &mut wgpu::CommandEncoder) {
-        let Some(counters) = shadows.buffer(BufferKind::Counters) else { return };
-        if self.frames_in_page == FRAMES_PER_PAGE {
-            self.full_pages.extend(self.page.take());
-            self.frames_in_page = 0;
+        let mut entries = 0;
+        for counters in shadows.buffers(BufferKind::Counters) {
+            if self.entries_in_sheet == ENTRIES_PER_SHEET {
+                self.full_sheets.extend(self.sheet.take());
+                self.entries_in_sheet = 0;
+            }
+            let sheet = self.sheet.get_or_insert_with(|| new_sheet(gpu));
+            encoder.copy_buffer_to_buffer(counters, 0, sheet, self.entries_in_sheet * COUNTERS_BYTES, COUNTERS_BYTES);
+            self.entries_in_sheet += 1;
+            entries += 1;
         }
-        let page = self.page.get_or_insert_with(|| new_page(gpu));
-        encoder.copy_buffer_to_buffer(counters, 0, page, self.frames_in_page * COUNTERS_BYTES, COUNTERS_BYTES);
-        self.frames_in_page += 1;
+        if entries > 0 {
+            self.frames.push(entries);
+        }
     }
 
     /// Reads all of them; waits.
     pub fn read(&self, gpu: &Gpu) -> Result<Vec<Counters>, ReadError> {
-        let mut all = Vec::new();
-        for page in &self.full_pages {
-            all.extend(read_page(gpu, page, FRAMES_PER_PAGE)?);
+        let mut entries = Vec::new();
+        for sheet in &self.full_sheets {
+            entries.extend(read_sheet(gpu, sheet, ENTRIES_PER_SHEET)?);
         }
-        if let Some(page) = &self.page {
-            all.extend(read_page(gpu, page, self.frames_in_page)?);
+        if let Some(sheet) = &self.sheet {
+            entries.extend(read_sheet(gpu, sheet, self.entries_in_sheet)?);
         }
-        Ok(all)
+        let mut entries = entries.into_iter();
+        Ok(self.frames.iter().map(|&count| entries.by_ref().take(count).sum()).collect())
     }
 }
 
-fn new_page(gpu: &Gpu) -> wgpu::Buffer {
+fn new_sheet(gpu: &Gpu) -> wgpu::Buffer {
     gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("counter log"),
-        size: FRAMES_PER_PAGE * COUNTERS_BYTES,
+        size: ENTRIES_PER_SHEET * COUNTERS_BYTES,
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: false,
     })
 }
 
-fn read_page(gpu: &Gpu, page: &wgpu::Buffer, frames: u64) -> Result<Vec<Counters>, ReadError> {
-    Ok(bytemuck::pod_collect_to_vec(&read_buffer(gpu, page, frames * COUNTERS_BYTES)?))
+fn read_sheet(gpu: &Gpu, sheet: &wgpu::Buffer, entries: u64) -> Result<Vec<Counters>, ReadError> {
+    Ok(bytemuck::pod_collect_to_vec(&read_buffer(gpu, sheet, entries * COUNTERS_BYTES)?))
 }
 
 #[cfg(test)]

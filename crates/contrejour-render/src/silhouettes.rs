@@ -13,15 +13,15 @@ use crate::readback::{ReadError, read_buffer};
 ///
 /// [`ReadError`] when the device fails.
 pub fn read_silhouettes(gpu: &Gpu, shadows: &Shadows) -> Result<Vec<SilhouetteEdge>, ReadError> {
-    let (Some(counters), Some(silhouettes)) =
-        (shadows.buffer(BufferKind::Counters), shadows.buffer(BufferKind::Silhouettes))
-    else {
-        return Ok(Vec::new());
-    };
-    let counters: Counters = bytemuck::pod_read_unaligned(&read_buffer(gpu, counters, size_of::<Counters>() as u64)?);
-    let bytes = u64::from(counters.silhouette_edges) * size_of::<SilhouetteEdge>() as u64;
-    let mut edges: Vec<SilhouetteEdge> =
-        bytemuck::pod_collect_to_vec(&read_buffer(gpu, silhouettes, bytes.min(silhouettes.size()))?);
+    let mut edges = Vec::new();
+    for (counters, silhouettes) in shadows.buffers(BufferKind::Counters).zip(shadows.buffers(BufferKind::Silhouettes)) {
+        let counters: Counters =
+            bytemuck::pod_read_unaligned(&read_buffer(gpu, counters, size_of::<Counters>() as u64)?);
+        let bytes = u64::from(counters.silhouette_edges) * size_of::<SilhouetteEdge>() as u64;
+        let page: Vec<SilhouetteEdge> =
+            bytemuck::pod_collect_to_vec(&read_buffer(gpu, silhouettes, bytes.min(silhouettes.size()))?);
+        edges.extend(page);
+    }
     edges.sort_unstable_by_key(|edge| (edge.caster, edge.edge_id));
     Ok(edges)
 }

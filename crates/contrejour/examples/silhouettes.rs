@@ -28,16 +28,16 @@ fn main() -> Outcome {
     shadows.encode(&mut encoder, &mut Untimed);
     queue.submit([encoder.finish()]);
 
-    // Here a renderer would bind both buffers to a stage of its own. The list is not in any order; its edges are.
-    let [Some(silhouettes), Some(counters)] =
-        [BufferKind::Silhouettes, BufferKind::Counters].map(|kind| shadows.buffer(kind))
-    else {
-        return Err("the plan lists no silhouettes".into());
-    };
-    let counters: Counters = bytemuck::pod_read_unaligned(&common::read_buffer(&device, &queue, counters)?);
-    let bytes = common::read_buffer(&device, &queue, silhouettes)?;
-    let mut edges: Vec<SilhouetteEdge> = bytemuck::pod_collect_to_vec(&bytes);
-    edges.truncate(counters.silhouette_edges as usize);
+    // Here a renderer would bind both buffers to a stage of its own, page by page where the mesh is too large for one.
+    // The lists are not in any order; edges are.
+    let mut edges: Vec<SilhouetteEdge> = Vec::new();
+    let [silhouettes, counters] = [BufferKind::Silhouettes, BufferKind::Counters].map(|kind| shadows.buffers(kind));
+    for (silhouettes, counters) in silhouettes.zip(counters) {
+        let counters: Counters = bytemuck::pod_read_unaligned(&common::read_buffer(&device, &queue, counters)?);
+        let bytes = common::read_buffer(&device, &queue, silhouettes)?;
+        let page: Vec<SilhouetteEdge> = bytemuck::pod_collect_to_vec(&bytes);
+        edges.extend(&page[..counters.silhouette_edges as usize]);
+    }
     edges.sort_by_key(|edge| edge.edge_id);
     println!("{} of {} edges are in the silhouette", edges.len(), topology.edges.len());
     for silhouette in edges.iter().take(5) {

@@ -117,8 +117,9 @@ fn census(mesh: &TestMesh, options: &ShadowOptions, light: &Light) -> Result<Cen
 /// Each buffer that the plan lists is there in its size, and no other.
 fn check_buffers(pipeline: &Pipeline<'_>, plan: &FramePlan) -> Outcome {
     for kind in BufferKind::ALL {
-        let listed = plan.buffers.iter().find(|buffer| buffer.kind == kind).map(|buffer| buffer.bytes);
-        let made = pipeline.shadows.buffer(kind).map(wgpu::Buffer::size);
+        let listed: Vec<_> =
+            plan.buffers.iter().filter(|buffer| buffer.kind == kind).map(|buffer| buffer.bytes).collect();
+        let made: Vec<_> = pipeline.shadows.buffers(kind).map(wgpu::Buffer::size).collect();
         if listed != made {
             return Err(format!("{kind:?} is listed with {listed:?} bytes and made with {made:?}"));
         }

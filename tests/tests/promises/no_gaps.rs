@@ -32,9 +32,9 @@ fn no_outline_vertex_has_a_gap(gpu: &Gpu) -> Outcome {
     for mesh in &meshes {
         let mut pipeline = Pipeline::new(gpu, mesh, &options)?;
         for (index, light) in lights(mesh).iter().enumerate().filter(|(index, _)| !INSIDE.contains(index)).step_by(3) {
-            let counters = pipeline.complete_frame(light)?;
+            pipeline.complete_frame(light)?;
             let view = views(light).map_err(|error| error.to_string())?[0];
-            let (quads, corners) = (pipeline.quads(&counters), pipeline.corners(&counters));
+            let (quads, corners) = (pipeline.quads(), pipeline.corners());
             let search = GapSearch { directions: 180, max_vertices: 300, ..Default::default() };
             let gaps = outline_gaps(&quads, &corners, &blockers(mesh, &view), &search);
             if let Some(gap) = gaps.first() {

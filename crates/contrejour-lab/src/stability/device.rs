@@ -116,32 +116,46 @@ impl<'a> DeviceFrame<'a> {
     }
 
     pub fn read(&self) -> Result<DeviceOutputs, CaseError> {
-        let Counters { silhouette_edges, quads, corners, .. } = self.shadows.stats().counters.unwrap_or_default();
-        let quads: Vec<Quad> = self.records(BufferKind::Quads, Some(quads))?;
-        let corners: Vec<Corner> = self.records(BufferKind::Corners, Some(corners))?;
-        let caster_lights: Vec<CasterLight> = self.records(BufferKind::CasterLights, None)?;
-        let light_view: Vec<LightView> = self.records(BufferKind::LightView, None)?;
-        let receiver_view: Vec<ReceiverView> = self.records(BufferKind::ReceiverView, None)?;
+        let quads: Vec<Quad> = self.counted(BufferKind::Quads, |counters| counters.quads)?;
+        let corners: Vec<Corner> = self.counted(BufferKind::Corners, |counters| counters.corners)?;
+        let caster_lights: Vec<CasterLight> = self.records(BufferKind::CasterLights)?;
+        let light_view: Vec<LightView> = self.records(BufferKind::LightView)?;
+        let receiver_view: Vec<ReceiverView> = self.records(BufferKind::ReceiverView)?;
         let of_records = non_finite(&quads)
             + non_finite(&corners)
             + non_finite(&caster_lights)
             + non_finite(&light_view)
             + non_finite(&receiver_view);
         Ok(DeviceOutputs {
-            lit: self.shadows.buffer(BufferKind::Lit).map(|_| self.records(BufferKind::Lit, None)).transpose()?,
-            silhouettes: self.records(BufferKind::Silhouettes, Some(silhouette_edges))?,
+            lit: self.shadows.buffer(BufferKind::Lit).map(|_| self.records(BufferKind::Lit)).transpose()?,
+            silhouettes: self.counted(BufferKind::Silhouettes, |counters| counters.silhouette_edges)?,
             non_finite: of_records + self.non_finite_texels()?,
             quads,
             corners,
         })
     }
 
-    /// The first records of a buffer, or all; none where the frame has no such buffer.
-    fn records<T: AnyBitPattern + NoUninit>(&self, kind: BufferKind, count: Option<u32>) -> Result<Vec<T>, CaseError> {
-        let Some(buffer) = self.shadows.buffer(kind) else { return Ok(Vec::new()) };
-        let size = size_of::<T>() as u64;
-        let count = count.map_or(buffer.size() / size, u64::from);
-        Ok(pod_collect_to_vec(&read_buffer(self.gpu, buffer, count * size)?))
+    /// All records of a kind of buffers; none where the frame has no such buffer.
+    fn records<T: AnyBitPattern + NoUninit>(&self, kind: BufferKind) -> Result<Vec<T>, CaseError> {
+        let mut records = Vec::new();
+        for buffer in self.shadows.buffers(kind) {
+            records.extend(pod_collect_to_vec::<u8, T>(&read_buffer(self.gpu, buffer, buffer.size())?));
+        }
+        Ok(records)
+    }
+
+    /// The records of lists that the frame counted, page after page.
+    fn counted<T: AnyBitPattern + NoUninit>(
+        &self,
+        kind: BufferKind,
+        count: fn(&Counters) -> u32,
+    ) -> Result<Vec<T>, CaseError> {
+        let mut records = Vec::new();
+        for (counters, list) in self.records(BufferKind::Counters)?.iter().zip(self.shadows.buffers(kind)) {
+            let size = u64::from(count(counters)) * size_of::<T>() as u64;
+            records.extend(pod_collect_to_vec::<u8, T>(&read_buffer(self.gpu, list, size)?));
+        }
+        Ok(records)
     }
 
     fn non_finite_texels(&self) -> Result<u64, CaseError> {

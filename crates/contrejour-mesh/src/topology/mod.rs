@@ -55,3 +55,15 @@ pub struct TopologyAwareMesh {
     /// What was found on the way.
     pub report: TopologyReport,
 }
+
+impl TopologyAwareMesh {
+    /// The candidate edges of a vertex, by ascending edge.
+    ///
+    /// # Panics
+    ///
+    /// When the mesh has no such vertex.
+    pub fn edges_of_vertex(&self, vertex: u32) -> &[VertexEdge] {
+        let [begin, end] = [vertex as usize, vertex as usize + 1].map(|index| self.vertex_edge_offsets[index] as usize);
+        &self.vertex_edges[begin..end]
+    }
+}

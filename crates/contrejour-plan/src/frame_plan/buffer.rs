@@ -57,6 +57,8 @@ pub enum BufferKind {
 pub struct BufferPlan {
     /// Which one.
     pub kind: BufferKind,
+    /// Index of the page that it belongs to; 0 where it serves all pages.
+    pub page: usize,
     /// Records, or words, that it has room for.
     pub items: u64,
     /// Its size in bytes. At least one record, since an empty buffer can't be bound.
@@ -116,6 +118,11 @@ impl BufferKind {
         }
     }
 
+    /// Whether each page has one of its own. The others serve all pages: they are small, or vertex ids index them.
+    pub const fn is_paged(self) -> bool {
+        !matches!(self, Self::Positions | Self::CasterLights | Self::ReceiverView | Self::Lit | Self::OutlineSides)
+    }
+
     /// Size of one record or word, in bytes.
     pub const fn item_bytes(self) -> u64 {
         let bytes = match self {
@@ -140,7 +147,7 @@ impl BufferKind {
 }
 
 impl BufferPlan {
-    pub(super) fn new(kind: BufferKind, items: u64) -> Self {
-        Self { kind, items, bytes: items.max(1).saturating_mul(kind.item_bytes()) }
+    pub(super) fn new(kind: BufferKind, page: usize, items: u64) -> Self {
+        Self { kind, page, items, bytes: items.max(1).saturating_mul(kind.item_bytes()) }
     }
 }

@@ -2,8 +2,6 @@
 
 use contrejour_layout::Counters;
 
-use super::MeshFacts;
-
 /// Capacities end at a multiple of this, so that small differences between frames do not matter.
 const GRANULE: u64 = 64;
 
@@ -42,10 +40,10 @@ impl Capacity {
         Self { quads: grown(self.quads, quads), corners: grown(self.corners, corners.max(needed.corners.into())) }
     }
 
-    /// Room for a first frame of casters with these meshes, at least `floor`, at most what they can ever need.
-    pub(super) fn of_casters<'a>(meshes: impl Iterator<Item = &'a MeshFacts> + Clone, floor: Self) -> Self {
-        let outline_edges = round_up(meshes.clone().map(estimated_outline_edges).sum()).max(LEAST_ROOM);
-        let most_edges = meshes.map(MeshFacts::edges).sum();
+    /// Room for a first frame where so many outline edges are expected, at least `floor`, at most what so many edges can
+    /// ever need.
+    pub(super) fn expecting(outline_edges: u64, most_edges: u64, floor: Self) -> Self {
+        let outline_edges = round_up(outline_edges).max(LEAST_ROOM);
         let between = |floor: u32, most: u64| saturating_u32(outline_edges.max(floor.into()).min(most));
         // An outline that is a loop has as many vertices as edges, and at most one wedge at each. Where many edges
         // meet in a vertex, each can need one at both ends.
@@ -54,10 +52,10 @@ impl Capacity {
 }
 
 /// A mesh of f faces has about 0.7 f^0.8 silhouette edges between two faces (McGuire 2004, "Observations on silhouette
-/// sizes"). A border or non-manifold edge may always be one.
-fn estimated_outline_edges(mesh: &MeshFacts) -> u64 {
-    let two_face = (0.7 * f64::from(mesh.faces).powf(0.8)).ceil() as u64;
-    two_face.min(mesh.two_face_edges.into()) + u64::from(mesh.other_edges)
+/// sizes"), and all of them may be among the given ones. A border or non-manifold edge may always be one.
+pub(super) fn expected_outline_edges(mesh_faces: u32, two_face_edges: u32, other_edges: u32) -> u64 {
+    let two_face = (0.7 * f64::from(mesh_faces).powf(0.8)).ceil() as u64;
+    two_face.min(two_face_edges.into()) + u64::from(other_edges)
 }
 
 fn round_up(count: u64) -> u64 {
@@ -72,31 +70,34 @@ fn saturating_u32(count: u64) -> u32 {
 mod tests {
     use super::*;
 
-    fn mesh(faces: u32, two_face_edges: u32, other_edges: u32) -> MeshFacts {
-        MeshFacts { faces, two_face_edges, other_edges, ..MeshFacts::default() }
+    /// Faces, edges with two faces, other edges of each mesh.
+    fn capacity_above(meshes: &[(u32, u32, u32)], floor: Capacity) -> Capacity {
+        let expected = meshes.iter().map(|&(faces, two_face, other)| expected_outline_edges(faces, two_face, other));
+        let most = meshes.iter().map(|&(_, two_face, other)| u64::from(two_face) + u64::from(other));
+        Capacity::expecting(expected.sum(), most.sum(), floor)
     }
 
-    fn capacity(meshes: &[MeshFacts]) -> Capacity {
-        Capacity::of_casters(meshes.iter(), Capacity::default())
+    fn capacity(meshes: &[(u32, u32, u32)]) -> Capacity {
+        capacity_above(meshes, Capacity::default())
     }
 
     #[test]
     fn closed_meshes_start_from_the_estimate() {
         // 0.7 * 1 000 000 ^ 0.8 = 44 167.
-        let capacity = capacity(&[mesh(1_000_000, 1_500_000, 0)]);
+        let capacity = capacity(&[(1_000_000, 1_500_000, 0)]);
         assert_eq!(capacity, Capacity { quads: 44_224, corners: 44_224 });
     }
 
     #[test]
     fn borders_all_count() {
-        assert_eq!(capacity(&[mesh(1_000, 0, 3_000)]).quads, 3_000);
-        let two = [mesh(1_000, 0, 3_000), mesh(1_000_000, 1_500_000, 10)];
+        assert_eq!(capacity(&[(1_000, 0, 3_000)]).quads, 3_000);
+        let two = [(1_000, 0, 3_000), (1_000_000, 1_500_000, 10)];
         assert_eq!(capacity(&two).quads, (44_167_u32 + 3_010).next_multiple_of(64));
     }
 
     #[test]
     fn small_meshes_have_room_for_everything() {
-        assert_eq!(capacity(&[mesh(12, 18, 0)]), Capacity { quads: 18, corners: 36 });
+        assert_eq!(capacity(&[(12, 18, 0)]), Capacity { quads: 18, corners: 36 });
         assert_eq!(capacity(&[]), Capacity { quads: 0, corners: 0 });
     }
 
@@ -117,9 +118,9 @@ mod tests {
 
     #[test]
     fn the_floor_raises_up_to_what_can_be_needed() {
-        let meshes = [mesh(1_000_000, 1_500_000, 0)];
+        let meshes = [(1_000_000, 1_500_000, 0)];
         let floor = Capacity { quads: 100_000, corners: u32::MAX };
-        let capacity = Capacity::of_casters(meshes.iter(), floor);
+        let capacity = capacity_above(&meshes, floor);
         assert_eq!(capacity, Capacity { quads: 100_000, corners: 3_000_000 });
     }
 }

@@ -14,11 +14,12 @@ impl fmt::Display for FramePlan {
         writeln!(formatter, "wanted: {wanted}")?;
         writeln!(formatter, "technique: {}, {} texels", self.settings.technique, self.settings.map_size)?;
         let casting = self.casting.len();
-        writeln!(
-            formatter,
-            "casting: {casting} ({} blocks of faces, {} of edges)",
-            self.counts.face_items, self.counts.edge_items
-        )?;
+        let face_items: u64 = self.pages.iter().map(|page| u64::from(page.counts.face_items)).sum();
+        let edge_items: u64 = self.pages.iter().map(|page| u64::from(page.counts.edge_items)).sum();
+        writeln!(formatter, "casting: {casting} ({face_items} blocks of faces, {edge_items} of edges)")?;
+        if self.pages.len() > 1 {
+            writeln!(formatter, "pages: {}", self.pages.len())?;
+        }
 
         write_names(formatter, "stages", self.stages.iter().map(|stage| stage.name()))?;
         write_names(formatter, "passes", self.passes.iter().map(|pass| pass.name()))?;
@@ -26,7 +27,11 @@ impl fmt::Display for FramePlan {
         let buffer_bytes: u64 = self.buffers.iter().map(|buffer| buffer.bytes).sum();
         let buffers = self.buffers.iter().map(|buffer| {
             [
-                buffer.kind.name().to_owned(),
+                if self.pages.len() > 1 && buffer.kind.is_paged() {
+                    format!("{}, page {}", buffer.kind.name(), buffer.page)
+                } else {
+                    buffer.kind.name().to_owned()
+                },
                 format!("{} x {} B", buffer.items, buffer.kind.item_bytes()),
                 human(buffer.bytes),
             ]

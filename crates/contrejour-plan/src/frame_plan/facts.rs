@@ -21,6 +21,30 @@ pub struct MeshFacts {
     pub vertex_edges: u32,
 }
 
+/// What of a mesh lies in one page: whole blocks of its faces and of its edges. Faces and edges keep their ids.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MeshPiece {
+    /// Index into [`SceneFacts::meshes`].
+    pub mesh: usize,
+    /// Its first face, which begins a block.
+    pub first_face: u32,
+    /// Faces.
+    pub faces: u32,
+    /// Its first edge, which begins a block.
+    pub first_edge: u32,
+    /// Edges with two faces.
+    pub two_face_edges: u32,
+    /// Border and non-manifold edges.
+    pub other_edges: u32,
+    /// Where its edges' incidence lists begin among those of the mesh, in words.
+    pub first_incidence_word: u32,
+    /// Words of its edges' incidence lists.
+    pub incidence_words: u32,
+    /// Edges in the lists of its edges' vertices together, also those of other pieces.
+    pub vertex_edges: u32,
+}
+
 /// A mesh that casts a shadow, where it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CasterFacts {
@@ -40,6 +64,8 @@ pub struct CasterFacts {
 pub struct SceneFacts {
     /// Meshes with topology; several casters can share one.
     pub meshes: Vec<MeshFacts>,
+    /// Pieces of the meshes that are too large for one page, by ascending mesh; none of the others.
+    pub pieces: Vec<MeshPiece>,
     /// What casts.
     pub casters: Vec<CasterFacts>,
     /// Names of the meshes that only receive: they have no topology.
@@ -75,18 +101,33 @@ pub enum Outputs {
     VisibilityTexture,
 }
 
-impl MeshFacts {
-    /// Edges that can be in a silhouette.
-    pub const fn edges(&self) -> u64 {
-        self.two_face_edges as u64 + self.other_edges as u64
+impl MeshPiece {
+    /// The whole mesh.
+    pub fn whole(mesh: usize, facts: &MeshFacts) -> Self {
+        Self {
+            mesh,
+            faces: facts.faces,
+            two_face_edges: facts.two_face_edges,
+            other_edges: facts.other_edges,
+            incidence_words: facts.incidence_words,
+            vertex_edges: facts.vertex_edges,
+            ..Self::default()
+        }
     }
 
-    pub(super) const fn face_blocks(&self) -> u64 {
-        (self.faces as u64).div_ceil(BLOCK_SIZE as u64)
+    /// Its edges.
+    pub const fn edges(&self) -> u32 {
+        self.two_face_edges + self.other_edges
     }
 
-    pub(super) const fn edge_blocks(&self) -> u64 {
-        self.edges().div_ceil(BLOCK_SIZE as u64)
+    /// Blocks of its faces.
+    pub const fn face_blocks(&self) -> u32 {
+        self.faces.div_ceil(BLOCK_SIZE)
+    }
+
+    /// Blocks of its edges.
+    pub const fn edge_blocks(&self) -> u32 {
+        self.edges().div_ceil(BLOCK_SIZE)
     }
 }
 

@@ -1,10 +1,11 @@
 //! The frame plan and how it is made.
 
 use super::decide::{LeftOutList, casting, passes, smoothies_wanted, stages};
+use super::page::{Page, pages};
 use super::size_buffers::SceneSizes;
 use super::{
-    BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, MeshFacts, Omitted, Outputs, Pass, PipelinePlan, PlanError,
-    Reason, SceneFacts, Stage, TextureKind, TexturePlan, VisibilityKind,
+    BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, MeshPiece, Omitted, Outputs, PagePlan, Pass, PipelinePlan,
+    PlanError, Reason, SceneFacts, Stage, TextureKind, TexturePlan, VisibilityKind,
 };
 use crate::{ShadowSettings, View, ViewCounts};
 
@@ -21,14 +22,14 @@ pub struct PlanInput<'a> {
     pub device: &'a DeviceFacts,
     /// What the caller wants.
     pub outputs: Outputs,
-    /// Room that earlier frames are known to need; zeros for a first frame.
+    /// Room that earlier frames are known to need on a page; zeros for a first frame.
     pub capacity: Capacity,
 }
 
 /// Everything that a frame of one light does and holds. Nothing else is created.
 ///
-/// Buffers have room for all casters of the scene, so that a light that moves creates nothing; `counts` and
-/// `casting` are those of this frame.
+/// Buffers have room for all casters of the scene, so that a light that moves creates nothing; `casting` and the counts
+/// of each page are those of this frame.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FramePlan {
@@ -44,7 +45,9 @@ pub struct FramePlan {
     pub passes: Vec<Pass>,
     /// Pipelines in the order of what runs them.
     pub pipelines: Vec<PipelinePlan>,
-    /// Buffers.
+    /// Pages, at least one; more where the device's buffers are too small for all meshes together.
+    pub pages: Vec<PagePlan>,
+    /// Buffers by kind, then by page.
     pub buffers: Vec<BufferPlan>,
     /// Textures.
     pub textures: Vec<TexturePlan>,
@@ -52,8 +55,6 @@ pub struct FramePlan {
     pub casting: Vec<usize>,
     /// Casters without a place for the light: their matrix is singular.
     pub singular_casters: u32,
-    /// Work items of this frame, and the room in each list.
-    pub counts: ViewCounts,
     /// What was left out, and why.
     pub left_out: Vec<LeftOut>,
 }
@@ -90,31 +91,23 @@ impl FramePlan {
         left_out.add(Omitted::Deformation, Reason::NothingIsSkinned);
 
         // List what that needs.
-        let cast_meshes = scene.casters.iter().map(|caster| &scene.meshes[caster.mesh]);
-        let sizes = SceneSizes::new(scene, cast_meshes, input.capacity);
-        let buffers = BufferKind::ALL
-            .into_iter()
-            .filter(|kind| is_bound(*kind, &stages, &passes))
-            .map(|kind| sizes.buffer(kind, device))
-            .collect::<Result<Vec<_>, _>>()?;
+        let kinds: Vec<_> = BufferKind::ALL.into_iter().filter(|kind| is_bound(*kind, &stages, &passes)).collect();
+        let pages = pages(scene, &kinds, device, input.capacity);
+        let buffers = buffers(&kinds, &SceneSizes::new(scene), &pages, device)?;
         let textures = passes.iter().flat_map(|pass| pass.fills());
         let textures = textures.map(|kind| TexturePlan::new(*kind, settings, device)).collect();
         let of_stages = stages.iter().map(|stage| PipelinePlan::of_stage(*stage));
         let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, &settings.technique));
         let pipelines = of_stages.chain(of_passes).collect();
 
-        let room = |kind| buffers.iter().find(|buffer| buffer.kind == kind).map_or(0, |buffer| buffer.items as u32);
-        let work = |blocks: fn(&MeshFacts) -> u64| {
-            casting.iter().map(|caster| blocks(&scene.meshes[scene.casters[*caster].mesh])).sum::<u64>() as u32
-        };
-        let counts = ViewCounts {
-            face_items: work(MeshFacts::face_blocks),
-            edge_items: if stages.is_empty() { 0 } else { work(MeshFacts::edge_blocks) },
-            undecided: room(BufferKind::Undecided),
-            silhouettes: room(BufferKind::Silhouettes),
-            quads: room(BufferKind::Quads),
-            corners: room(BufferKind::Corners),
-        };
+        let has_edges = !stages.is_empty();
+        let pages = (pages.into_iter().enumerate())
+            .map(|(index, page)| PagePlan {
+                counts: counts(&page, &casting, has_edges, &buffers, index),
+                pieces: page.pieces,
+                casters: page.casters,
+            })
+            .collect();
         let singular_casters = left_out.count(Reason::SingularMatrix);
         let left_out = left_out.0;
         Ok(Self {
@@ -124,11 +117,11 @@ impl FramePlan {
             stages,
             passes,
             pipelines,
+            pages,
             buffers,
             textures,
             casting,
             singular_casters,
-            counts,
             left_out,
         })
     }
@@ -143,7 +136,7 @@ impl FramePlan {
         self.passes.contains(&pass)
     }
 
-    /// A buffer, where the frame needs it.
+    /// A buffer, where the frame needs it; the first page's.
     pub fn buffer(&self, kind: BufferKind) -> Option<&BufferPlan> {
         self.buffers.iter().find(|buffer| buffer.kind == kind)
     }
@@ -158,11 +151,6 @@ impl FramePlan {
         self.casting.binary_search(&caster).is_ok()
     }
 
-    /// Room for quads and corners.
-    pub fn capacity(&self) -> Capacity {
-        Capacity { quads: self.counts.quads, corners: self.counts.corners }
-    }
-
     /// Why something was left out; `None` where it was not.
     pub fn reason(&self, what: &Omitted) -> Option<Reason> {
         self.left_out.iter().find(|left_out| left_out.what == *what).map(|left_out| left_out.reason)
@@ -175,6 +163,45 @@ fn is_bound(kind: BufferKind, stages: &[Stage], passes: &[Pass]) -> bool {
     by_receivers
         || stages.iter().any(|stage| stage.buffers().contains(&kind))
         || passes.iter().any(|pass| pass.buffers().contains(&kind))
+}
+
+fn buffers(
+    kinds: &[BufferKind],
+    scene: &SceneSizes,
+    pages: &[Page],
+    device: &DeviceFacts,
+) -> Result<Vec<BufferPlan>, PlanError> {
+    let mut buffers = Vec::new();
+    for &kind in kinds {
+        if kind.is_paged() {
+            for (page, index) in pages.iter().zip(0..) {
+                buffers.push(page.sizes.buffer(kind, index, device)?);
+            }
+        } else {
+            buffers.push(scene.buffer(kind, device)?);
+        }
+    }
+    Ok(buffers)
+}
+
+/// Work items on a page, and the room in its lists.
+fn counts(page: &Page, casting: &[usize], has_edges: bool, buffers: &[BufferPlan], index: usize) -> ViewCounts {
+    let room = |kind| {
+        let listed = buffers.iter().find(|buffer| buffer.kind == kind && buffer.page == index);
+        listed.map_or(0, |buffer| buffer.items as u32)
+    };
+    let work = |blocks: fn(&MeshPiece) -> u32| {
+        let here = page.casters.iter().filter(|here| casting.binary_search(&here.caster).is_ok());
+        here.map(|here| blocks(&page.pieces[here.piece])).sum()
+    };
+    ViewCounts {
+        face_items: work(MeshPiece::face_blocks),
+        edge_items: if has_edges { work(MeshPiece::edge_blocks) } else { 0 },
+        undecided: room(BufferKind::Undecided),
+        silhouettes: room(BufferKind::Silhouettes),
+        quads: room(BufferKind::Quads),
+        corners: room(BufferKind::Corners),
+    }
 }
 
 #[cfg(test)]

@@ -2,110 +2,144 @@
 
 use contrejour_layout::{LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK};
 
-use super::{BufferKind, BufferPlan, Capacity, DeviceFacts, MeshFacts, PlanError, SceneFacts};
+use super::capacity::expected_outline_edges;
+use super::{BufferKind, BufferPlan, Capacity, DeviceFacts, MeshFacts, MeshPiece, PlanError, SceneFacts};
 
 /// Entries of refine, extrude and draw arguments: each serves two stages or draws.
 const INDIRECT_ENTRIES: u64 = 2;
 
-/// Sums over all casters of a scene, whether the light sees them or not: it may in the next frame, and nothing is to
-/// be created then.
+/// Sizes of the buffers that serve all pages, with room for all casters of a scene, whether the light sees them or not:
+/// it may in the next frame, and nothing is to be created then.
 pub(super) struct SceneSizes {
     casters: u64,
+    position_words: u64,
+    face_blocks: u64,
+    edge_blocks: u64,
+}
+
+/// Sizes of the buffers of one page, which has room for all its casters too.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PageSizes {
+    /// Those of the scene: the same index names a caster on each page.
+    casters: u64,
+    /// Sums over the pieces.
+    pool_faces: u64,
+    pool_edges: u64,
+    incidence_words: u64,
+    vertex_edge_words: u64,
+    /// Sums over the casters of the pieces.
     faces: u64,
     edges: u64,
     face_blocks: u64,
     edge_blocks: u64,
-    own_position_words: u64,
-    pool: PoolSizes,
-    pub capacity: Capacity,
-}
-
-/// Sums over all meshes of a scene.
-#[derive(Default)]
-struct PoolSizes {
-    vertices: u64,
-    faces: u64,
-    edges: u64,
-    incidence_words: u64,
-    vertex_edge_words: u64,
+    outline_edges: u64,
+    /// Room for quads and corners that earlier frames are known to need.
+    floor: Capacity,
 }
 
 impl SceneSizes {
-    /// `cast_meshes` are the meshes of the casters, with repetition.
-    pub fn new<'a>(
-        scene: &SceneFacts,
-        cast_meshes: impl Iterator<Item = &'a MeshFacts> + Clone,
-        floor: Capacity,
-    ) -> Self {
-        let sum = |size: fn(&MeshFacts) -> u64| cast_meshes.clone().map(size).sum();
+    pub fn new(scene: &SceneFacts) -> Self {
+        let mesh_words: u64 = scene.meshes.iter().map(|mesh| 3 * u64::from(mesh.vertices)).sum();
+        let own_words: u64 = scene.casters.iter().map(|caster| caster.own_position_words).sum();
+        let cast = scene.casters.iter().map(|caster| MeshPiece::whole(caster.mesh, &scene.meshes[caster.mesh]));
         Self {
             casters: scene.casters.len() as u64,
-            faces: sum(|mesh| mesh.faces.into()),
-            edges: sum(MeshFacts::edges),
-            face_blocks: sum(MeshFacts::face_blocks),
-            edge_blocks: sum(MeshFacts::edge_blocks),
-            own_position_words: scene.casters.iter().map(|caster| caster.own_position_words).sum(),
-            pool: PoolSizes::new(&scene.meshes),
-            capacity: Capacity::of_casters(cast_meshes.clone(), floor),
+            position_words: mesh_words + own_words,
+            face_blocks: cast.clone().map(|mesh| u64::from(mesh.face_blocks())).sum(),
+            edge_blocks: cast.map(|mesh| u64::from(mesh.edge_blocks())).sum(),
         }
     }
 
-    /// Records, or words, of a buffer.
-    pub fn items(&self, kind: BufferKind) -> u64 {
-        match kind {
-            BufferKind::Positions => 3 * self.pool.vertices + self.own_position_words,
-            BufferKind::Faces => self.pool.faces,
-            BufferKind::Edges => self.pool.edges,
-            BufferKind::Incidences => self.pool.incidence_words,
-            BufferKind::VertexEdges => self.pool.vertex_edge_words,
-            BufferKind::Casters | BufferKind::CasterLights => self.casters,
-            BufferKind::FaceItems => self.face_blocks,
-            BufferKind::EdgeItems => self.edge_blocks,
-            BufferKind::LightView | BufferKind::ReceiverView | BufferKind::Counters => 1,
-            BufferKind::Lit => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
-            BufferKind::Undecided => self.faces,
-            BufferKind::Silhouettes => self.edges,
-            BufferKind::OutlineSides => self.edge_blocks * u64::from(OUTLINE_WORDS_PER_BLOCK),
-            BufferKind::Quads => self.capacity.quads.into(),
-            BufferKind::Corners => self.capacity.corners.into(),
-            BufferKind::RefineArgs | BufferKind::ExtrudeArgs | BufferKind::DrawArgs => INDIRECT_ENTRIES,
-        }
-    }
-
-    /// A buffer with room for everything.
+    /// A buffer that serves all pages.
     ///
     /// # Errors
     ///
     /// The device allows less, or shaders can't count so far.
     pub fn buffer(&self, kind: BufferKind, device: &DeviceFacts) -> Result<BufferPlan, PlanError> {
-        let plan = BufferPlan::new(kind, self.items(kind));
-        if plan.items > u64::from(u32::MAX) {
-            return Err(PlanError::TooManyRecords { buffer: kind, needed: plan.items });
-        }
-        let limits = [
-            (device.max_storage_buffer_binding_size, "max_storage_buffer_binding_size"),
-            (device.max_buffer_size, "max_buffer_size"),
-        ];
-        for (limit, limit_name) in limits {
-            if plan.bytes > limit {
-                return Err(PlanError::BufferTooLarge { buffer: kind, needed: plan.bytes, limit, limit_name });
-            }
-        }
-        Ok(plan)
+        let items = match kind {
+            BufferKind::Positions => self.position_words,
+            BufferKind::CasterLights => self.casters,
+            BufferKind::Lit => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
+            BufferKind::OutlineSides => self.edge_blocks * u64::from(OUTLINE_WORDS_PER_BLOCK),
+            _ => 1,
+        };
+        allowed(BufferPlan::new(kind, 0, items), device)
     }
 }
 
-impl PoolSizes {
-    fn new(meshes: &[MeshFacts]) -> Self {
-        let mut sizes = Self::default();
-        for mesh in meshes {
-            sizes.vertices += u64::from(mesh.vertices);
-            sizes.faces += u64::from(mesh.faces);
-            sizes.edges += mesh.edges();
-            sizes.incidence_words += u64::from(mesh.incidence_words);
-            // Offsets have one more than there are vertices; an entry is an edge and a vertex.
-            sizes.vertex_edge_words += u64::from(mesh.vertices) + 1 + 2 * u64::from(mesh.vertex_edges);
-        }
-        sizes
+impl PageSizes {
+    /// Sizes of a page without pieces.
+    pub fn new(scene: &SceneFacts, floor: Capacity) -> Self {
+        Self { casters: scene.casters.len() as u64, floor, ..Self::default() }
     }
+
+    /// Makes room for a piece in the pools.
+    pub fn add_piece(&mut self, piece: &MeshPiece, mesh: &MeshFacts) {
+        self.pool_faces += u64::from(piece.faces);
+        self.pool_edges += u64::from(piece.edges());
+        self.incidence_words += u64::from(piece.incidence_words);
+        // Offsets have one more than there are vertices; an entry is an edge and a vertex.
+        self.vertex_edge_words += u64::from(mesh.vertices) + 1 + 2 * u64::from(piece.vertex_edges);
+    }
+
+    /// Makes room for what the stages write about a caster of a piece.
+    pub fn add_caster(&mut self, piece: &MeshPiece, mesh: &MeshFacts) {
+        self.faces += u64::from(piece.faces);
+        self.edges += u64::from(piece.edges());
+        self.face_blocks += u64::from(piece.face_blocks());
+        self.edge_blocks += u64::from(piece.edge_blocks());
+        self.outline_edges += expected_outline_edges(mesh.faces, piece.two_face_edges, piece.other_edges);
+    }
+
+    /// Records, or words, of a buffer.
+    fn items(&self, kind: BufferKind) -> u64 {
+        let capacity = Capacity::expecting(self.outline_edges, self.edges, self.floor);
+        match kind {
+            BufferKind::Faces => self.pool_faces,
+            BufferKind::Edges => self.pool_edges,
+            BufferKind::Incidences => self.incidence_words,
+            BufferKind::VertexEdges => self.vertex_edge_words,
+            BufferKind::Casters => self.casters,
+            BufferKind::FaceItems => self.face_blocks,
+            BufferKind::EdgeItems => self.edge_blocks,
+            BufferKind::Undecided => self.faces,
+            BufferKind::Silhouettes => self.edges,
+            BufferKind::Quads => capacity.quads.into(),
+            BufferKind::Corners => capacity.corners.into(),
+            BufferKind::RefineArgs | BufferKind::ExtrudeArgs | BufferKind::DrawArgs => INDIRECT_ENTRIES,
+            _ => 1,
+        }
+    }
+
+    /// A buffer of a page.
+    ///
+    /// # Errors
+    ///
+    /// The device allows less, or shaders can't count so far.
+    pub fn buffer(&self, kind: BufferKind, page: usize, device: &DeviceFacts) -> Result<BufferPlan, PlanError> {
+        allowed(BufferPlan::new(kind, page, self.items(kind)), device)
+    }
+
+    /// Whether the device allows all paged buffers among these kinds.
+    pub fn fit(&self, kinds: &[BufferKind], device: &DeviceFacts) -> bool {
+        let mut paged = kinds.iter().filter(|kind| kind.is_paged());
+        paged.all(|kind| self.buffer(*kind, 0, device).is_ok())
+    }
+}
+
+fn allowed(plan: BufferPlan, device: &DeviceFacts) -> Result<BufferPlan, PlanError> {
+    let BufferPlan { kind, items, bytes, .. } = plan;
+    if items > u64::from(u32::MAX) {
+        return Err(PlanError::TooManyRecords { buffer: kind, needed: items });
+    }
+    let limits = [
+        (device.max_storage_buffer_binding_size, "max_storage_buffer_binding_size"),
+        (device.max_buffer_size, "max_buffer_size"),
+    ];
+    for (limit, limit_name) in limits {
+        if bytes > limit {
+            return Err(PlanError::BufferTooLarge { buffer: kind, needed: bytes, limit, limit_name });
+        }
+    }
+    Ok(plan)
 }

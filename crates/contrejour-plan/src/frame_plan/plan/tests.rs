@@ -2,8 +2,8 @@ use glam::{DMat4, DVec3};
 
 use super::*;
 use crate::{
-    AlphaRemap, CasterFacts, DepthPrecision, Light, LightKind, MapSampler, ObjectBox, SettingsError, SmoothieBlend,
-    SmoothieSettings, SmoothieWidth, Technique, TextureFormat, VarianceSettings, views,
+    AlphaRemap, CasterFacts, DepthPrecision, Light, LightKind, MapSampler, MeshFacts, ObjectBox, PagedCaster,
+    SettingsError, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, TextureFormat, VarianceSettings, views,
 };
 
 /// A closed cube of 12 faces: 18 edges, 6 of them coplanar diagonals that can be in no silhouette.
@@ -45,6 +45,7 @@ fn caster_at(name: &str, mesh: usize, place: DVec3) -> CasterFacts {
 fn cube_scene() -> SceneFacts {
     SceneFacts {
         meshes: vec![CUBE],
+        pieces: Vec::new(),
         casters: vec![caster_at("cube", 0, DVec3::ZERO)],
         receivers: vec!["floor".to_owned()],
     }
@@ -97,7 +98,11 @@ impl Case {
 
 /// Nothing is missing and nothing is too much: what holds for every plan.
 fn assert_consistent(plan: &FramePlan) {
-    assert!(plan.stages.is_sorted() && plan.passes.is_sorted() && plan.buffers.is_sorted_by_key(|buffer| buffer.kind));
+    assert!(
+        plan.stages.is_sorted()
+            && plan.passes.is_sorted()
+            && plan.buffers.is_sorted_by_key(|buffer| (buffer.kind, buffer.page))
+    );
     for kind in BufferKind::ALL {
         let bound = plan.stages.iter().any(|stage| stage.buffers().contains(&kind))
             || plan.passes.iter().any(|pass| pass.buffers().contains(&kind))
@@ -162,7 +167,7 @@ fn sizes_follow_the_counts() {
     assert_eq!(bytes(&plan, BufferKind::RefineArgs), Some(2 * 12));
     assert_eq!(bytes(&plan, BufferKind::DrawArgs), Some(2 * 16));
     let counts = ViewCounts { face_items: 2, edge_items: 2, undecided: 24, silhouettes: 24, quads: 24, corners: 48 };
-    assert_eq!(plan.counts, counts);
+    assert_eq!(plan.pages[0].counts, counts);
     assert_eq!(plan.texture(TextureKind::ShadowDepth).map(|texture| texture.bytes), Some(1024 * 1024 * 4));
     assert_eq!(plan.texture(TextureKind::SmoothieAlpha).map(|texture| texture.bytes), Some(1024 * 1024 * 2));
 }
@@ -198,7 +203,7 @@ fn a_shadow_map_needs_no_silhouettes() {
     let plan = case.good();
     assert!(plan.stages.is_empty());
     assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
-    assert_eq!(plan.counts.edge_items, 0);
+    assert_eq!(plan.pages[0].counts.edge_items, 0);
     assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::TechniqueHasNoSmoothies));
     assert_eq!(plan.reason(&Omitted::Pass(Pass::ShadowMap)), Some(Reason::HardwareDepthIsEnough));
     assert!(plan.buffer(BufferKind::Edges).is_none() && plan.buffer(BufferKind::FaceItems).is_some());
@@ -307,7 +312,7 @@ fn casters_that_cannot_cast_have_no_work() {
     ]);
     let plan = case.good();
     assert_eq!(plan.casting, [0, 4]);
-    assert_eq!((plan.counts.face_items, plan.counts.edge_items, plan.singular_casters), (2, 2, 1));
+    assert_eq!((plan.pages[0].counts.face_items, plan.pages[0].counts.edge_items, plan.singular_casters), (2, 2, 1));
     let reason = |name: &str| plan.reason(&Omitted::CasterWork(name.to_owned()));
     assert_eq!(reason("far"), Some(Reason::OutsideFrustum));
     assert_eq!(reason("flat"), Some(Reason::SingularMatrix));
@@ -334,7 +339,7 @@ fn an_orbiting_light_creates_nothing() {
     let before = case.good();
     case.scene.casters[1] = caster_at("sometimes", 0, DVec3::ZERO);
     let after = case.good();
-    assert_ne!(before.counts.face_items, after.counts.face_items);
+    assert_ne!(before.pages[0].counts.face_items, after.pages[0].counts.face_items);
     assert_eq!((before.buffers, before.textures, before.pipelines), (after.buffers, after.textures, after.pipelines));
 }
 
@@ -345,7 +350,7 @@ fn an_empty_scene_clears_the_map() {
         let plan = case.good();
         assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
         assert_eq!(plan.reason(&Omitted::SmoothiePasses), Some(Reason::NothingCasts));
-        assert_eq!(plan.counts, ViewCounts::default());
+        assert_eq!(plan.pages[0].counts, ViewCounts::default());
         case.outputs = Outputs::Silhouettes;
         let plan = case.good();
         assert!(plan.stages.is_empty() && plan.buffers.is_empty());
@@ -356,12 +361,12 @@ fn an_empty_scene_clears_the_map() {
 fn quads_start_from_the_estimate_and_grow() {
     let mut case = Case::new(SceneFacts { meshes: vec![TORUS], ..cube_scene() });
     let plan = case.good();
-    assert_eq!(plan.capacity(), Capacity { quads: 44_224, corners: 44_224 });
-    assert_eq!(plan.counts.silhouettes, 1_500_000, "the list has room for every edge");
-    assert_eq!(plan.counts.undecided, 1_000_000);
+    assert_eq!(plan.pages[0].capacity(), Capacity { quads: 44_224, corners: 44_224 });
+    assert_eq!(plan.pages[0].counts.silhouettes, 1_500_000, "the list has room for every edge");
+    assert_eq!(plan.pages[0].counts.undecided, 1_000_000);
     let counted = contrejour_layout::Counters { quads: 60_000, corners: 50, ..Default::default() };
-    case.capacity = plan.capacity().grown_for(&counted);
-    assert_eq!(case.good().capacity(), Capacity { quads: 75_008, corners: 44_224 });
+    case.capacity = plan.pages[0].capacity().grown_for(&counted);
+    assert_eq!(case.good().pages[0].capacity(), Capacity { quads: 75_008, corners: 44_224 });
 }
 
 #[test]
@@ -399,11 +404,74 @@ fn what_the_device_cannot_hold_is_an_error() {
 
 #[test]
 fn what_32_bits_cannot_count_is_an_error() {
-    let mesh = MeshFacts { faces: 3_000_000_000, two_face_edges: 10, ..CUBE };
+    let mesh = MeshFacts { vertices: 1_000_000_000, ..CUBE };
     let mut case = Case::new(SceneFacts { meshes: vec![mesh, mesh], ..cube_scene() });
     case.device = DeviceFacts { max_storage_buffer_binding_size: u64::MAX, max_buffer_size: u64::MAX, ..case.device };
     let needed = 6_000_000_000;
-    assert_eq!(case.plan(), Err(PlanError::TooManyRecords { buffer: BufferKind::Faces, needed }));
+    assert_eq!(case.plan(), Err(PlanError::TooManyRecords { buffer: BufferKind::Positions, needed }));
+}
+
+/// The torus in two pieces of about two thirds and one third of its edges; its faces are all in the first.
+fn torus_pieces() -> [MeshPiece; 2] {
+    let first_edge = 1_000_000 / 64 * 64;
+    let whole = MeshPiece::whole(0, &TORUS);
+    let first = MeshPiece { two_face_edges: first_edge, vertex_edges: 2_010_000, ..whole };
+    let two_face_edges = whole.two_face_edges - first_edge;
+    [first, MeshPiece { faces: 0, first_edge, two_face_edges, vertex_edges: 1_010_000, ..whole }]
+}
+
+fn check_limits(plan: &FramePlan, limit: u64) {
+    for buffer in &plan.buffers {
+        assert!(buffer.bytes <= limit, "{} of page {} has {} bytes", buffer.kind.name(), buffer.page, buffer.bytes);
+    }
+}
+
+#[test]
+fn a_mesh_in_pieces_fills_pages() {
+    let mut case = Case::new(SceneFacts { meshes: vec![TORUS], ..cube_scene() });
+    case.scene.pieces = torus_pieces().to_vec();
+    let whole = case.good();
+    assert_eq!((whole.pages.len(), whole.pages[0].pieces[0]), (1, MeshPiece::whole(0, &TORUS)), "it fits as it is");
+    let limit = 20_000_000;
+    case.device.max_storage_buffer_binding_size = limit;
+    let plan = case.good();
+    check_limits(&plan, limit);
+    assert_eq!(
+        plan.pages.iter().map(|page| page.pieces.as_slice()).collect::<Vec<_>>(),
+        torus_pieces().each_ref().map(std::slice::from_ref)
+    );
+    assert!(plan.pages.iter().all(|page| page.casters == [PagedCaster { caster: 0, piece: 0 }]));
+    let items = |items: fn(&ViewCounts) -> u32| plan.pages.iter().map(|page| items(&page.counts)).collect::<Vec<_>>();
+    assert_eq!(items(|counts| counts.face_items), [15_625, 0]);
+    assert_eq!(items(|counts| counts.edge_items), [15_625, 7_813]);
+    assert_eq!(items(|counts| counts.silhouettes), [1_000_000, 500_000]);
+    assert_eq!(bytes(&plan, BufferKind::Lit), Some(15_625 * 8), "lit bits are those of the whole mesh");
+    let print = plan.to_string();
+    assert!(print.contains("pages: 2\n") && print.contains("edges, page 1"), "{print}");
+    case.settings.technique = Technique::ShadowMap;
+    assert_eq!(case.good().pages.len(), 1, "faces alone fit");
+}
+
+#[test]
+fn many_meshes_fill_pages() {
+    let meshes: Vec<_> = (0..40).map(|_| CUBE).collect();
+    let casters = (0..80).map(|index| caster_at("cube", index % 40, DVec3::ZERO)).collect();
+    let mut case = Case::new(SceneFacts { meshes, casters, ..cube_scene() });
+    assert_eq!(case.good().pages.len(), 1);
+    // Corners need 12 edges x 2 ends x 56 bytes for each caster, and all caster records are on each page.
+    let limit = 14_000;
+    case.device.max_storage_buffer_binding_size = limit;
+    let plan = case.good();
+    check_limits(&plan, limit);
+    assert_eq!(plan.pages.len(), 8);
+    let mut cast: Vec<_> = plan.pages.iter().flat_map(|page| &page.casters).map(|here| here.caster).collect();
+    cast.sort_unstable();
+    assert_eq!(cast, (0..80).collect::<Vec<_>>(), "each caster is on one page");
+    for page in &plan.pages {
+        for here in &page.casters {
+            assert_eq!(page.pieces[here.piece].mesh, here.caster % 40);
+        }
+    }
 }
 
 #[test]
