@@ -61,6 +61,15 @@ pub fn gpu_with_large_textures() -> Result<Gpu, String> {
     })
 }
 
+/// A device whose shaders see no storage buffer of more than so many bytes, so that small meshes are too large for it.
+///
+/// # Errors
+///
+/// Why there is none, in one line.
+pub fn gpu_with_small_buffers(max_storage_buffer_binding_size: u64) -> Result<Gpu, String> {
+    open_with(wgpu::Features::empty(), |_| wgpu::Limits { max_storage_buffer_binding_size, ..wgpu::Limits::default() })
+}
+
 fn open(features: wgpu::Features) -> Result<Gpu, String> {
     open_with(features, |_| wgpu::Limits::default())
 }

@@ -6,20 +6,32 @@ use contrejour_plan::{DeviceFacts, MeshFacts, MeshPiece};
 
 use crate::pool::mesh_facts;
 
-/// The pieces of the mesh of this index, none where it fits as it is: as large as the device allows, a block at least.
+/// The pieces of the mesh of this index, as large as the device allows. None where the mesh fits as it is, and where it
+/// can't be cut because a block alone is too large: a vertex has more edges than a buffer holds.
 pub fn mesh_pieces(mesh: &TopologyAwareMesh, index: usize, device: &DeviceFacts) -> Vec<MeshPiece> {
     let facts = &mesh_facts(mesh);
+    let fits = |piece: &MeshPiece| piece.fits(facts, device);
     let whole = MeshPiece::whole(index, facts);
-    if whole.fits(facts, device) {
+    if fits(&whole) {
         return Vec::new();
     }
     let mut pieces = Vec::new();
     let mut next = MeshPiece { mesh: index, ..MeshPiece::default() };
+    let mut listed_by = vec![0; mesh.positions.len()];
     while next.first_face < whole.faces || next.first_edge < whole.edges() {
         let mut piece = next;
-        grow(&mut piece, |piece| with_next_faces(piece, facts), facts, device);
-        let mut vertices = vec![false; mesh.positions.len()];
-        grow(&mut piece, |piece| with_next_edges(piece, mesh, &mut vertices), facts, device);
+        let mut blocks = 0;
+        while let Some(larger) = with_next_faces(&piece, facts).filter(fits) {
+            piece = larger;
+            blocks += 1;
+        }
+        while let Some(larger) = with_next_edges(&piece, mesh, &mut listed_by, pieces.len() + 1).filter(fits) {
+            piece = larger;
+            blocks += 1;
+        }
+        if blocks == 0 {
+            return Vec::new();
+        }
         next.first_face += piece.faces;
         next.first_edge += piece.edges();
         next.first_incidence_word += piece.incidence_words;
@@ -28,27 +40,18 @@ pub fn mesh_pieces(mesh: &TopologyAwareMesh, index: usize, device: &DeviceFacts)
     pieces
 }
 
-/// Adds block after block as long as the piece fits.
-fn grow(
-    piece: &mut MeshPiece,
-    mut with_next: impl FnMut(&MeshPiece) -> Option<MeshPiece>,
-    facts: &MeshFacts,
-    device: &DeviceFacts,
-) {
-    let mut is_first = true;
-    while let Some(larger) = with_next(piece).filter(|larger| is_first || larger.fits(facts, device)) {
-        *piece = larger;
-        is_first = false;
-    }
-}
-
 fn with_next_faces(piece: &MeshPiece, facts: &MeshFacts) -> Option<MeshPiece> {
     let left = facts.faces - piece.first_face - piece.faces;
     (left > 0).then(|| MeshPiece { faces: piece.faces + left.min(BLOCK_SIZE), ..*piece })
 }
 
-/// `vertices` are marked that the piece has the edges of.
-fn with_next_edges(piece: &MeshPiece, mesh: &TopologyAwareMesh, vertices: &mut [bool]) -> Option<MeshPiece> {
+/// `listed_by` holds for each vertex the last piece that lists its edges; this one is `number`.
+fn with_next_edges(
+    piece: &MeshPiece,
+    mesh: &TopologyAwareMesh,
+    listed_by: &mut [usize],
+    number: usize,
+) -> Option<MeshPiece> {
     let begin = piece.first_edge + piece.edges();
     let end = mesh.candidate_edge_count.min(begin + BLOCK_SIZE);
     let mut larger = *piece;
@@ -62,7 +65,7 @@ fn with_next_edges(piece: &MeshPiece, mesh: &TopologyAwareMesh, vertices: &mut [
             larger.incidence_words += 1 + mesh.incidences[edge.second as usize];
         }
         for vertex in [edge.low_vertex, edge.high_vertex] {
-            if !std::mem::replace(&mut vertices[vertex as usize], true) {
+            if std::mem::replace(&mut listed_by[vertex as usize], number) != number {
                 larger.vertex_edges += mesh.edges_of_vertex(vertex).len() as u32;
             }
         }

@@ -319,8 +319,8 @@ fn the_plan_is_known_before() -> Outcome {
             let contestant = judge.contestant(&settings).map_err(text)?;
             let followed = contestant.shadows().plan().ok_or("a contestant is prepared")?;
             let facts = |plan: &FramePlan| {
-                let FramePlan { stages, passes, buffers, textures, casting, counts, .. } = plan.clone();
-                (stages, passes, buffers, textures, casting, counts)
+                let FramePlan { stages, passes, buffers, textures, casting, pages, .. } = plan.clone();
+                (stages, passes, buffers, textures, casting, pages)
             };
             if facts(&before) != facts(followed) {
                 return Err(format!("{name}: {before:?} was planned and {followed:?} followed"));

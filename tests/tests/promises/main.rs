@@ -10,11 +10,13 @@ mod no_gaps;
 mod nothing_lost;
 mod nothing_per_edge;
 mod own_positions;
+mod pages;
 mod peers;
 mod pictures;
 mod repeatable;
 mod silhouettes;
 mod smoothie_ways;
+mod ten_million;
 
 use std::process::ExitCode;
 
@@ -29,6 +31,8 @@ fn main() -> ExitCode {
         nothing_per_edge::trials(),
         own_positions::trials(),
         device_trouble::trials(),
+        pages::trials(),
+        ten_million::trials(),
         no_gaps::trials(),
         smoothie_ways::trials(),
         left_out::trials(),
