@@ -2,7 +2,7 @@
 
 use contrejour_gpu::{ShadowOptions, Shadows};
 use contrejour_layout::{Corner, Quad, SilhouetteEdge, VertexEdge};
-use contrejour_oracle::OracleTopology;
+use contrejour_oracle::{ManyLights, OracleTopology};
 use contrejour_plan::{BufferKind, Light, MeshPiece, caster_light, position_scale, views};
 use contrejour_tests::compare::{compare_exact, compare_records};
 use contrejour_tests::gpu::{Gpu, gpu_with_small_buffers};
@@ -104,8 +104,11 @@ fn leave_what_one_page_leaves(gpu: &Gpu) -> Outcome {
 
 fn check(gpu: &Gpu, small: &Gpu, mesh: &TestMesh, pipeline: &mut Pipeline<'_>) -> Outcome {
     let mut whole = Pipeline::new(gpu, mesh, &ShadowOptions::default())?;
-    let oracles: Vec<_> =
-        mesh.parts.iter().map(|part| OracleTopology::new(&part.topology.positions, &part.triangles)).collect();
+    let oracles: Vec<_> = mesh
+        .parts
+        .iter()
+        .map(|part| ManyLights::new(&OracleTopology::new(&part.topology.positions, &part.triangles)))
+        .collect();
     for (index, light) in lights(mesh).iter().enumerate().step_by(5) {
         let at = |difference: String| format!("light {index}: {difference}");
         let expected = left_by(gpu, &mut whole, light).map_err(at)?;
@@ -117,7 +120,7 @@ fn check(gpu: &Gpu, small: &Gpu, mesh: &TestMesh, pipeline: &mut Pipeline<'_>) -
 }
 
 /// Exact for each caster that is in view, and closed for all.
-fn check_silhouettes(mesh: &TestMesh, oracles: &[OracleTopology], light: &Light, found: &[SilhouetteEdge]) -> Outcome {
+fn check_silhouettes(mesh: &TestMesh, oracles: &[ManyLights], light: &Light, found: &[SilhouetteEdge]) -> Outcome {
     let view = views(light).map_err(|error| error.to_string())?[0];
     for ((part, oracle), caster) in mesh.parts.iter().zip(oracles).zip(0..) {
         let of_caster: Vec<_> = found.iter().filter(|edge| edge.caster == caster).copied().collect();
