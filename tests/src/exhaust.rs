@@ -212,19 +212,21 @@ impl<'a> Exhaust<'a> {
         let mut encoder = device.create_command_encoder(&Default::default());
         self.shadows.encode(&mut encoder, &mut Untimed);
         for (kind, range) in FOUND.into_iter().zip(self.layout()) {
-            if let Some(source) = self.shadows.buffer(kind) {
-                encoder.copy_buffer_to_buffer(source, 0, &buffer, range.start, range.end - range.start);
+            let mut begin = range.start;
+            for source in self.shadows.buffers(kind) {
+                encoder.copy_buffer_to_buffer(source, 0, &buffer, begin, source.size());
+                begin += source.size();
             }
         }
         Ok(Waiting { light, buffer, submission: queue.submit([encoder.finish()]) })
     }
 
-    /// Where each of [`FOUND`] lies in what comes back.
+    /// Where each of [`FOUND`] lies in what comes back, page after page.
     fn layout(&self) -> [Range<u64>; 3] {
         let mut end = 0;
         FOUND.map(|kind| {
             let begin = end;
-            end += self.shadows.buffer(kind).map_or(0, wgpu::Buffer::size);
+            end += self.shadows.buffers(kind).map(wgpu::Buffer::size).sum::<u64>();
             begin..end
         })
     }
@@ -238,13 +240,16 @@ impl<'a> Exhaust<'a> {
 
     fn found(&self, bytes: &[u8]) -> Found {
         let [counters, lit, silhouettes] = self.layout().map(|range| &bytes[range.start as usize..range.end as usize]);
-        let counters: Counters = bytemuck::pod_collect_to_vec(counters).first().copied().unwrap_or_default();
-        let silhouettes = &silhouettes[..counters.silhouette_edges as usize * size_of::<SilhouetteEdge>()];
-        Found {
-            counters,
-            lit: bytemuck::pod_collect_to_vec(lit),
-            silhouettes: bytemuck::pod_collect_to_vec(silhouettes),
+        let pages: Vec<Counters> = bytemuck::pod_collect_to_vec(counters);
+        let mut lists = silhouettes;
+        let mut silhouettes = Vec::new();
+        for (counters, buffer) in pages.iter().zip(self.shadows.buffers(BufferKind::Silhouettes)) {
+            let (list, others) = lists.split_at(buffer.size() as usize);
+            let list: Vec<SilhouetteEdge> = bytemuck::pod_collect_to_vec(list);
+            silhouettes.extend(&list[..counters.silhouette_edges as usize]);
+            lists = others;
         }
+        Found { counters: pages.into_iter().sum(), lit: bytemuck::pod_collect_to_vec(lit), silhouettes }
     }
 
     /// Counts where a frame's findings differ from exact arithmetic.

@@ -3,7 +3,7 @@
 use contrejour_gpu::{ShadowOptions, Shadows};
 use contrejour_layout::{Corner, Quad, SilhouetteEdge, VertexEdge};
 use contrejour_oracle::{ManyLights, OracleTopology};
-use contrejour_plan::{BufferKind, Light, MeshPiece, caster_light, position_scale, views};
+use contrejour_plan::{BufferKind, Light, MeshPiece, ShadowSettings, caster_light, position_scale, views};
 use contrejour_tests::compare::{compare_exact, compare_records};
 use contrejour_tests::gpu::{Gpu, gpu_with_small_buffers};
 use contrejour_tests::harness::{Outcome, gpu_trial};
@@ -30,6 +30,10 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("pages::leave_what_one_page_leaves", leave_what_one_page_leaves),
         gpu_trial("pages::a_vertex_without_the_edges_of_other_pages_is_found", missing_neighbours_are_found),
     ]
+}
+
+fn options() -> ShadowOptions {
+    ShadowOptions { settings: ShadowSettings { map_size: 256, ..Default::default() }, ..Default::default() }
 }
 
 /// The lists and the maps of a frame.
@@ -69,9 +73,9 @@ fn page_count(shadows: &Shadows) -> usize {
     shadows.plan().map_or(0, |plan| plan.pages.len())
 }
 
-/// The shapes that are too large for a device, as it cuts them; none that not even its positions fit.
+/// A mesh as a device cuts it; none where one page is enough, or where not even its positions fit.
 fn paged<'a>(gpu: &'a Gpu, mesh: &TestMesh) -> Result<Option<Pipeline<'a>>, String> {
-    let mut pipeline = Pipeline::new(gpu, mesh, &ShadowOptions::default())?;
+    let mut pipeline = Pipeline::new(gpu, mesh, &options())?;
     match pipeline.frame(&lights(mesh)[0]) {
         Ok(_) => Ok(PAGES.contains(&page_count(&pipeline.shadows)).then_some(pipeline)),
         Err(error) if error.contains("max_storage_buffer_binding_size") => Ok(None),
@@ -103,13 +107,13 @@ fn leave_what_one_page_leaves(gpu: &Gpu) -> Outcome {
 }
 
 fn check(gpu: &Gpu, small: &Gpu, mesh: &TestMesh, pipeline: &mut Pipeline<'_>) -> Outcome {
-    let mut whole = Pipeline::new(gpu, mesh, &ShadowOptions::default())?;
+    let mut whole = Pipeline::new(gpu, mesh, &options())?;
     let oracles: Vec<_> = mesh
         .parts
         .iter()
         .map(|part| ManyLights::new(&OracleTopology::new(&part.topology.positions, &part.triangles)))
         .collect();
-    for (index, light) in lights(mesh).iter().enumerate().step_by(5) {
+    for (index, light) in lights(mesh).iter().enumerate().step_by(8) {
         let at = |difference: String| format!("light {index}: {difference}");
         let expected = left_by(gpu, &mut whole, light).map_err(at)?;
         let found = left_by(small, pipeline, light).map_err(at)?;
@@ -140,8 +144,8 @@ fn missing_neighbours_are_found(gpu: &Gpu) -> Outcome {
     let mesh = shapes().swap_remove(4);
     let lights = lights(&mesh);
     let small = gpu_with_small_buffers(LIMITS[1])?;
-    let mut pipeline = Pipeline::new(&small, &mesh, &ShadowOptions::default())?;
-    let mut whole = Pipeline::new(gpu, &mesh, &ShadowOptions::default())?;
+    let mut pipeline = Pipeline::new(&small, &mesh, &options())?;
+    let mut whole = Pipeline::new(gpu, &mesh, &options())?;
     compare(&left_by(gpu, &mut whole, &lights[0])?, &left_by(&small, &mut pipeline, &lights[0])?)?;
 
     let pages = pipeline.shadows.plan().map_or(&[][..], |plan| &plan.pages);
