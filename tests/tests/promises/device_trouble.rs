@@ -48,12 +48,9 @@ fn small(technique: Technique) -> ShadowOptions {
 
 /// What the last frame found and drew.
 fn left_by(gpu: &Gpu, pipeline: &mut Pipeline<'_>, light: &Light) -> Result<(Vec<u64>, Vec<f32>), String> {
-    let counters = pipeline.complete_frame(light)?;
-    let mut edges: Vec<u64> = pipeline
-        .silhouettes(&counters)
-        .iter()
-        .map(|edge| u64::from(edge.caster) << 32 | u64::from(edge.edge_id))
-        .collect();
+    pipeline.complete_frame(light)?;
+    let mut edges: Vec<u64> =
+        pipeline.silhouettes().iter().map(|edge| u64::from(edge.caster) << 32 | u64::from(edge.edge_id)).collect();
     edges.sort_unstable();
     let depth = pipeline.shadows.maps().shadow_depth.ok_or("there is no map")?;
     Ok((edges, read_floats(gpu, depth)))

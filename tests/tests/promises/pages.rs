@@ -3,7 +3,7 @@
 use contrejour_gpu::{ShadowOptions, Shadows};
 use contrejour_layout::{Corner, Quad, SilhouetteEdge, VertexEdge};
 use contrejour_oracle::{ManyLights, OracleTopology};
-use contrejour_plan::{BufferKind, Light, MeshPiece, ShadowSettings, caster_light, position_scale, views};
+use contrejour_plan::{BufferKind, Light, MeshPiece, NearOne, ShadowSettings, caster_light, views};
 use contrejour_tests::compare::{compare_exact, compare_records};
 use contrejour_tests::gpu::{Gpu, gpu_with_small_buffers};
 use contrejour_tests::harness::{Outcome, gpu_trial};
@@ -129,9 +129,9 @@ fn check_silhouettes(mesh: &TestMesh, oracles: &[ManyLights], light: &Light, fou
     for ((part, oracle), caster) in mesh.parts.iter().zip(oracles).zip(0..) {
         let of_caster: Vec<_> = found.iter().filter(|edge| edge.caster == caster).copied().collect();
         closed::check(&part.topology, &of_caster)?;
-        let scale = position_scale(part.topology.bounds_min, part.topology.bounds_max);
+        let near_one = NearOne::of_box(part.topology.bounds_min, part.topology.bounds_max);
         if !of_caster.is_empty() {
-            let light = caster_light(&view, &part.world_from_object, scale);
+            let light = caster_light(&view, &part.world_from_object, &near_one);
             exact::check(&part.topology, oracle, &light, &of_caster)?;
         }
     }

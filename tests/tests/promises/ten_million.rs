@@ -10,7 +10,7 @@ use contrejour_gpu::ShadowOptions;
 use contrejour_layout::{CORNER_WEDGE, Corner, INCIDENCE_ALONG, MAX_GROUPS_X, SilhouetteEdge};
 use contrejour_mesh::{TopologyAwareMesh, incidence_words};
 use contrejour_oracle::lit;
-use contrejour_plan::{ShadowSettings, caster_light, position_scale, views};
+use contrejour_plan::{NearOne, ShadowSettings, caster_light, views};
 use contrejour_tests::compare::{Record, check_finite, compare_exact, compare_records};
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
@@ -103,8 +103,8 @@ fn exact_silhouette(mesh: &TopologyAwareMesh, light: &contrejour_plan::Light) ->
         return Err("a face has no area".into());
     }
     let view = views(light).map_err(|error| error.to_string())?[0];
-    let scale = position_scale(mesh.bounds_min, mesh.bounds_max);
-    let light = caster_light(&view, &DMat4::IDENTITY, scale).light_object.map(f32::from_bits);
+    let near_one = NearOne::of_box(mesh.bounds_min, mesh.bounds_max);
+    let light = caster_light(&view, &DMat4::IDENTITY, &near_one).light_object.map(f32::from_bits);
     let at = |vertex: u32| mesh.positions[vertex as usize];
     let is_lit: Vec<bool> =
         mesh.faces.iter().map(|face| lit(at(face.a), at(face.b), at(face.c), light, false)).collect();
