@@ -1,29 +1,22 @@
-// Decides by floats which faces are lit, as far as a proven bound allows, and lists the faces that it does not decide.
-// One invocation = one face; one workgroup = one work item.
-// Reads face_items, casters, caster_lights, faces, positions; writes lit, undecided, counters.undecided_near and _far.
+// Decides by their stored planes which faces are lit, as far as a proven bound allows, and lists the others for
+// recheck_faces.
+// One invocation = one word of lit bits, 32 faces.
+// Reads face_items, casters, caster_lights, planes; writes lit, recheck_words, counters.recheck_words.
 
 @group(0) @binding(0) var<uniform> view: LightView;
 @group(0) @binding(1) var<storage, read> face_items: array<WorkItem>;
 @group(0) @binding(2) var<storage, read> casters: array<Caster>;
 @group(0) @binding(3) var<storage, read> caster_lights: array<CasterLight>;
-@group(0) @binding(4) var<storage, read> faces: array<Face>;
-@group(0) @binding(5) var<storage, read> positions: array<u32>;
-@group(0) @binding(6) var<storage, read_write> lit: array<u32>;
-@group(0) @binding(7) var<storage, read_write> undecided: array<FaceRef>;
-@group(0) @binding(8) var<storage, read_write> counters: AtomicCounters;
+@group(0) @binding(4) var<storage, read> planes: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> lit: array<u32>;
+@group(0) @binding(6) var<storage, read_write> recheck_words: array<RecheckWord>;
+@group(0) @binding(7) var<storage, read_write> counters: AtomicCounters;
 
-alias Verdict = u32;
-const UNLIT: Verdict = 0u;
-const LIT: Verdict = 1u;
-const UNDECIDED: Verdict = 2u;
-const UNDECIDED_NEAR: Verdict = 3u;
-const UNDECIDED_FAR: Verdict = 4u;
-
-var<workgroup> group_lit: array<atomic<u32>, LIT_WORDS_PER_BLOCK>;
-var<workgroup> group_near_count: atomic<u32>;
-var<workgroup> group_far_count: atomic<u32>;
-var<workgroup> group_near_base: u32;
-var<workgroup> group_far_base: u32;
+// A bit for each face.
+struct Verdicts {
+    lit: u32,
+    undecided: u32,
+}
 
 @compute @workgroup_size(64)
 fn classify_faces(
@@ -31,130 +24,91 @@ fn classify_faces(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    // Test the face.
-    let item_id = folded_group(group, groups);
-    let in_range = item_id < view.face_item_count;
-    let item = face_items[select(0u, item_id, in_range)];
+    // Find the faces of the word.
+    let index = folded_invocation(group, groups, lane);
+    let item_id = index / LIT_WORDS_PER_BLOCK;
+    if item_id >= view.face_item_count {
+        return;
+    }
+    let item = face_items[item_id];
     let caster = casters[item.caster];
-    let face_id = item.block * BLOCK_SIZE + lane;
-    var verdict = UNLIT;
-    if in_range && face_id < caster.face_count {
-        verdict = classify(caster, caster_lights[item.caster], faces[caster.first_face + face_id]);
+    let word = item.block * LIT_WORDS_PER_BLOCK + index % LIT_WORDS_PER_BLOCK;
+    let first_face_id = word * FACES_PER_WORD;
+    let face_count = min(max(caster.face_count, first_face_id) - first_face_id, FACES_PER_WORD);
+
+    // Test them.
+    let caster_light = caster_lights[item.caster];
+    var verdicts = Verdicts(0u, 0u);
+    if caster_light.casts != 0u && face_count > 0u {
+        if item.by_positions == 0u && is_in_range(caster_light.light_object) {
+            verdicts = classify_by_planes(caster.first_face + first_face_id, face_count, scaled_light(caster_light));
+        } else {
+            verdicts.undecided = 0xffffffffu >> (FACES_PER_WORD - face_count);
+        }
     }
 
-    // Gather bits and places in the lists.
-    var rank = 0u;
-    if verdict == LIT {
-        atomicOr(&group_lit[lane / 32u], 1u << (lane % 32u));
-    } else if verdict == UNDECIDED_NEAR {
-        rank = atomicAdd(&group_near_count, 1u);
-    } else if verdict == UNDECIDED_FAR {
-        rank = atomicAdd(&group_far_count, 1u);
-    }
-    workgroupBarrier();
-    let near_count = atomicLoad(&group_near_count);
-    let far_count = atomicLoad(&group_far_count);
-    if lane == 0u && near_count > 0u {
-        group_near_base = atomicAdd(&counters.undecided_near, near_count);
-    }
-    if lane == 0u && far_count > 0u {
-        group_far_base = atomicAdd(&counters.undecided_far, far_count);
-    }
-    workgroupBarrier();
-
-    // Write: near faces from the list's front, far ones from its back. The list has room for every face.
-    if in_range && lane < LIT_WORDS_PER_BLOCK {
-        lit[caster.first_lit_word + item.block * LIT_WORDS_PER_BLOCK + lane] = atomicLoad(&group_lit[lane]);
-    }
-    let is_near = verdict == UNDECIDED_NEAR;
-    let place = rank + select(group_far_base, group_near_base, is_near);
-    if verdict >= UNDECIDED && place < view.undecided_capacity {
-        let slot = select(view.undecided_capacity - 1u - place, place, is_near);
-        undecided[slot] = FaceRef(item.caster, face_id);
+    // Write the word. The list has room for every one.
+    lit[caster.first_lit_word + word] = verdicts.lit;
+    if verdicts.undecided != 0u {
+        let slot = atomicAdd(&counters.recheck_words, 1u);
+        recheck_words[slot] = RecheckWord(item.caster, word, verdicts.undecided);
     }
 }
 
-fn classify(caster: Caster, caster_light: CasterLight, face: Face) -> Verdict {
-    if caster_light.casts == 0u || face.a == face.b || face.b == face.c || face.c == face.a {
-        return UNLIT;
-    }
-    let bits = facing_bits(caster, caster_light, face);
-    let verdict = classify_by_floats(bits);
-    if verdict != UNDECIDED {
-        return verdict;
-    }
-    if !may_have_volume(bits) {
-        return UNLIT;
-    }
-    let is_near = max(span_length(edge_span(bits)), span_length(light_span(bits))) <= NEAR_SPAN;
-    return select(UNDECIDED_FAR, UNDECIDED_NEAR, is_near);
-}
-
-// The bound of the float test. u = 2^-23 is the largest relative error of an operation that rounds correctly in some
-// direction. P and Q are powers of two above all coordinates of the corners and of the light (and its origin).
+// The bound of the test. u = 2^-23 is the largest relative error of an operation that rounds correctly in some
+// direction, and of a component of a stored plane. A term is a component times the light's. S is the sum of the exact
+// terms' magnitudes; their sum is the determinant.
 //
-// Rounding: each of the six products p q r of the determinant goes through three differences, two multiplications and
-// at most five additions, in whatever order and fused or not. So the rounding error is below 10.0001 u S, where S is
-// the sum of the products' magnitudes. `size` goes through as many operations, so it is above (1 - u)^10 S, and
-// 16 u = 2^-19 covers the error, and the roundings of `size` and of the bound itself.
-const ROUNDING = 0x1p-19;
+// Range: components are zero or 2^-60 to 2^60 large, the light's are zero or 2^-40 to 2^60, so terms are zero or 2^-100
+// to 2^120. Nothing overflows, and no term underflows. Where a sum of terms cancels so far that it may be flushed to
+// zero, that is off by 2^-126 < u S / 7.
+//
+// Rounding: each term goes through the storing, a multiplication and at most three additions, in whatever order and
+// fused or not. So the sum is off by less than 5.0001 u S, and by u S / 2 where three sums are flushed. `size` adds up
+// magnitudes, so it is above (1 - u)^5 S, and the bound is above 7.99 u S where S is not zero.
+//
+// Zero: where each term is exactly zero so are the sum, `size` and the bound, and the face is unlit, as one is that is
+// exactly edge-on. So it is for most faces of mechanical parts that an axis-aligned light meets edge-on.
+const ROUNDING = 0x1p-20;
 
-// Underflow: inputs and results below 2^-126 may become zero. A difference is then off by at most 4 * 2^-126, a
-// product or a sum by 2^-126. Differences are at most 2 P and 2 Q, so the determinant is off by at most
-//     2^-126 (6 * 4 (8 P Q + 4 P^2) + 18 P + 11) < 2^-117 max(P Q, P^2, P, 1) < 2^-117 * 2^54 P^2 Q
-// because P and Q are at least 2^-18. Twice that covers the underflow of `size`, and twice again all roundings.
-const UNDERFLOW = 0x1p-61;
-
-// No overflow: sums stay below 64 P^2 Q <= 2^126, because P and Q are at most 2^40. No underflow of the bound either:
-// 2^-61 P^2 Q >= 2^-115. Both ranges are tested on the exponent bits of the largest coordinates, P / 2 and Q / 2.
-const MIN_EXPONENT = 108u;
-const MAX_EXPONENT = 166u;
-
-fn classify_by_floats(bits: FacingBits) -> Verdict {
-    let edge_exponent = max_exponent(bits.a, bits.b, bits.c);
-    let light_exponent = max_exponent(bits.light, bits.light_origin, vec3u(0u));
-    if min(edge_exponent, light_exponent) < MIN_EXPONENT || max(edge_exponent, light_exponent) > MAX_EXPONENT {
-        return UNDECIDED;
+fn classify_by_planes(first_face: u32, face_count: u32, light: vec4f) -> Verdicts {
+    var lit_bits = 0u;
+    var not_unlit_bits = 0u;
+    for (var i = 0u; i < face_count; i++) {
+        let terms = planes[first_face + i] * light;
+        let sizes = abs(terms);
+        let determinant = terms.x + terms.y + terms.z + terms.w;
+        let bound = ROUNDING * (sizes.x + sizes.y + sizes.z + sizes.w);
+        lit_bits |= select(0u, 1u << i, determinant > bound);
+        not_unlit_bits |= select(0u, 1u << i, determinant > -bound);
     }
-    let a = bitcast<vec3f>(bits.a);
-    let p = bitcast<vec3f>(bits.b) - a;
-    let q = bitcast<vec3f>(bits.c) - a;
-    let r = bitcast<vec3f>(bits.light) - bitcast<vec3f>(bits.light_origin);
-    let first = q.yzx * r.zxy;
-    let second = q.zxy * r.yzx;
-    let terms = p * (first - second);
-    let sizes = abs(p) * (abs(first) + abs(second));
-    let determinant = terms.x + terms.y + terms.z;
-    let size = sizes.x + sizes.y + sizes.z;
-    let edge_limit = power_above(edge_exponent);
-    let bound = ROUNDING * size + UNDERFLOW * edge_limit * edge_limit * power_above(light_exponent);
-    if determinant > bound {
-        return LIT;
-    }
-    return select(UNDECIDED, UNLIT, -determinant > bound);
+    return Verdicts(lit_bits, not_unlit_bits & ~lit_bits);
 }
 
-// The exponent bits of the largest coordinate.
-fn max_exponent(x: vec3u, y: vec3u, z: vec3u) -> u32 {
-    let largest = max(max(x & vec3u(0x7fffffffu), y & vec3u(0x7fffffffu)), z & vec3u(0x7fffffffu));
-    return max(max(largest.x, largest.y), largest.z) >> 23u;
+// The light's largest component is brought to 2^59 or more and below 2^60; those that are not zero may be 2^-99 of it.
+const LARGEST_EXPONENT = 186u;
+const EXPONENT_RANGE = 99u;
+
+fn is_in_range(light: vec4u) -> bool {
+    let exponents = exponents_of(light);
+    let is_zero = light << vec4u(1u) == vec4u(0u);
+    let is_near = (exponents != vec4u(0u)) & (largest_of(exponents) - exponents <= vec4u(EXPONENT_RANGE));
+    return all(is_zero | is_near);
 }
 
-// The power of two above all numbers with these exponent bits.
-fn power_above(exponent: u32) -> f32 {
-    return bitcast<f32>((exponent + 1u) << 23u);
+// By the bits, since a device may flush subnormal numbers. A mirrored caster changes the determinant's sign.
+fn scaled_light(caster_light: CasterLight) -> vec4f {
+    let light = caster_light.light_object;
+    let scale = (LARGEST_EXPONENT - largest_of(exponents_of(light))) << 23u;
+    let is_zero = light << vec4u(1u) == vec4u(0u);
+    let scaled = bitcast<vec4f>(select(light + vec4u(scale), vec4u(0u), is_zero));
+    return select(scaled, -scaled, caster_light.mirrored != 0u);
 }
 
-// False when each of the determinant's six products has a factor that is exactly zero: so it is for most faces of
-// mechanical parts that an axis-aligned light meets edge-on.
-fn may_have_volume(bits: FacingBits) -> bool {
-    let p = differs(bits.b, bits.a);
-    let q = differs(bits.c, bits.a);
-    let r = differs(bits.light, bits.light_origin);
-    return any((p & q.yzx & r.zxy) | (p & q.zxy & r.yzx));
+fn exponents_of(light: vec4u) -> vec4u {
+    return (light >> vec4u(23u)) & vec4u(0xffu);
 }
 
-fn differs(x: vec3u, y: vec3u) -> vec3<bool> {
-    let are_zeros = ((x | y) << vec3u(1u)) == vec3u(0u);
-    return (x != y) & !are_zeros;
+fn largest_of(exponents: vec4u) -> u32 {
+    return max(max(exponents.x, exponents.y), max(exponents.z, exponents.w));
 }

@@ -11,8 +11,8 @@ struct Counters {
     quads: u32,
     corners: u32,
     point_edges: u32,
+    recheck_words: u32,
     unused_0: u32,
-    unused_1: u32,
 }
 
 struct DispatchArgs {

@@ -7,6 +7,6 @@ struct AtomicCounters {
     quads: atomic<u32>,
     corners: atomic<u32>,
     point_edges: atomic<u32>,
+    recheck_words: atomic<u32>,
     unused_0: atomic<u32>,
-    unused_1: atomic<u32>,
 }

@@ -9,6 +9,12 @@ const CORNER_WEDGE = 0u;
 const CORNER_CAP = 1u;
 const MAX_SEARCHED_VALENCE = 256u;
 
+struct RecheckWord {
+    caster: u32,
+    word: u32,
+    faces: u32,
+}
+
 struct FaceRef {
     caster: u32,
     face_id: u32,

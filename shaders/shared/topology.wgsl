@@ -4,6 +4,7 @@ const INCIDENCE_NONE = 0xffffffffu;
 const INCIDENCE_LIST = 0xfffffffeu;
 const UNLIT_FACE = 0x7ffffffdu;
 const BLOCK_SIZE = 64u;
+const FACES_PER_WORD = 32u;
 const LIT_WORDS_PER_BLOCK = 2u;
 const OUTLINE_WORDS_PER_BLOCK = 4u;
 
@@ -45,4 +46,5 @@ struct Caster {
 struct WorkItem {
     caster: u32,
     block: u32,
+    by_positions: u32,
 }

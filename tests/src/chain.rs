@@ -2,6 +2,7 @@
 
 use bytemuck::cast_slice;
 use contrejour_gpu::stages::{self, ComputeStage, Dispatch};
+use contrejour_layout::{BLOCK_SIZE, LIT_WORDS_PER_BLOCK};
 use contrejour_plan::BufferKind;
 
 use crate::frame::Frame;
@@ -109,6 +110,10 @@ fn groups(dispatch: Dispatch, frame: &Frame) -> [u32; 3] {
     match dispatch {
         Dispatch::Items(BufferKind::EdgeItems) => [frame.edge_items.len() as u32, 1, 1],
         Dispatch::Items(_) => [frame.face_items.len() as u32, 1, 1],
+        Dispatch::ItemWords(_) => {
+            let words = frame.face_items.len() as u32 * LIT_WORDS_PER_BLOCK;
+            [words.div_ceil(BLOCK_SIZE), 1, 1]
+        }
         Dispatch::Once => [1, 1, 1],
         Dispatch::Indirect(kind, index) => {
             let args: &[[u32; 3]] = cast_slice(frame.bytes(kind.name()));

@@ -3,9 +3,9 @@
 use bytemuck::{bytes_of, bytes_of_mut, cast_slice, cast_slice_mut};
 use contrejour_layout::{
     BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
-    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, SilhouetteEdge, WorkItem,
+    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SilhouetteEdge, WorkItem,
 };
-use contrejour_mesh::TopologyAwareMesh;
+use contrejour_mesh::{FacePlanes, TopologyAwareMesh};
 use contrejour_plan::{Light, NearOne, ShadowSettings, ViewCounts, caster_light, views};
 
 use crate::meshes::TestPart;
@@ -24,11 +24,14 @@ pub struct Frame {
     pub casters: Vec<Caster>,
     pub caster_lights: Vec<CasterLight>,
     pub faces: Vec<Face>,
+    pub planes: Vec<[f32; 4]>,
     pub positions: Vec<u32>,
     pub edges: Vec<Edge>,
     pub incidences: Vec<u32>,
     pub vertex_edges: Vec<u32>,
     pub lit: Vec<u32>,
+    pub recheck_words: Vec<RecheckWord>,
+    pub recheck_args: Vec<DispatchArgs>,
     pub undecided: Vec<FaceRef>,
     pub counters: Counters,
     pub refine_args: Vec<DispatchArgs>,
@@ -51,12 +54,16 @@ impl Frame {
         let mut frame = Self::empty();
         let (mut lit_words, mut outline_words) = (0, 0);
         for (part, index) in parts.iter().zip(0..) {
-            let caster = frame.add_part(part, index, lit_words, outline_words);
+            let planes = part.topology.face_planes();
+            let caster = frame.add_part(part, &planes, index, lit_words, outline_words);
             lit_words += caster.face_count.div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
             outline_words += caster.edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK;
             let light = caster_light(&view, &part.world_from_object, &near_one(&part.topology));
             if light.casts == 1 {
-                frame.face_items.extend(items(index, caster.face_count));
+                frame.face_items.extend(items(index, caster.face_count).map(|item| {
+                    let by_positions = is_by_positions(index) || !planes.block_fits(item.block);
+                    WorkItem { by_positions: by_positions.into(), ..item }
+                }));
                 frame.edge_items.extend(items(index, caster.edge_count));
             }
             frame.caster_lights.push(light);
@@ -77,6 +84,7 @@ impl Frame {
         };
         frame.view = view.light_view(settings, &counts);
         frame.lit = vec![0; lit_words as usize];
+        frame.recheck_words = vec![RecheckWord::default(); lit_words as usize];
         frame.outline_sides = vec![0; outline_words as usize];
         frame.set_room(counts);
         frame
@@ -91,11 +99,14 @@ impl Frame {
             casters: Vec::new(),
             caster_lights: Vec::new(),
             faces: Vec::new(),
+            planes: Vec::new(),
             positions: Vec::new(),
             edges: Vec::new(),
             incidences: Vec::new(),
             vertex_edges: Vec::new(),
             lit: Vec::new(),
+            recheck_words: Vec::new(),
+            recheck_args: vec![DispatchArgs::default()],
             undecided: Vec::new(),
             counters: Counters::default(),
             refine_args: vec![DispatchArgs::default(); 2],
@@ -121,13 +132,21 @@ impl Frame {
     }
 
     /// Puts a part into the pools, behind a gap, every second one with a wider stride between its positions.
-    fn add_part(&mut self, part: &TestPart, index: u32, lit_words: u32, outline_words: u32) -> Caster {
+    fn add_part(
+        &mut self,
+        part: &TestPart,
+        planes: &FacePlanes,
+        index: u32,
+        lit_words: u32,
+        outline_words: u32,
+    ) -> Caster {
         let mesh = &part.topology;
         let stride = 3 + index % 2;
         self.positions.extend(GAP);
         self.incidences.extend(GAP);
         self.vertex_edges.extend(GAP);
         self.faces.push(Face { a: GAP[0], b: GAP[1], c: GAP[2] });
+        self.planes.push([-1.0; 4]);
         self.edges.push(Edge { low_vertex: GAP[0], high_vertex: GAP[1], first: GAP[2], second: GAP[3] });
 
         let candidates = &mesh.edges[..mesh.candidate_edge_count as usize];
@@ -153,6 +172,9 @@ impl Frame {
             self.positions.extend(&GAP[3..stride as usize]);
         }
         self.faces.extend(&mesh.faces);
+        // As for positions of the caller's, there are none.
+        let wrong_planes = vec![[-1.0; 4]; mesh.faces.len()];
+        self.planes.extend(if is_by_positions(index) { &wrong_planes } else { &planes.planes });
         self.edges.extend(candidates);
         self.incidences.extend(&mesh.incidences);
         self.vertex_edges.extend(&mesh.vertex_edge_offsets);
@@ -173,11 +195,14 @@ impl Frame {
             "casters" => cast_slice(&self.casters),
             "caster_lights" => cast_slice(&self.caster_lights),
             "faces" => cast_slice(&self.faces),
+            "planes" => cast_slice(&self.planes),
             "positions" => cast_slice(&self.positions),
             "edges" => cast_slice(&self.edges),
             "incidences" => cast_slice(&self.incidences),
             "vertex_edges" => cast_slice(&self.vertex_edges),
             "lit" => cast_slice(&self.lit),
+            "recheck_words" => cast_slice(&self.recheck_words),
+            "recheck_args" => cast_slice(&self.recheck_args),
             "undecided" => cast_slice(&self.undecided),
             "counters" => bytes_of(&self.counters),
             "refine_args" => cast_slice(&self.refine_args),
@@ -199,6 +224,8 @@ impl Frame {
     pub fn set_bytes(&mut self, binding: &str, bytes: &[u8]) {
         let place = match binding {
             "lit" => cast_slice_mut(&mut self.lit),
+            "recheck_words" => cast_slice_mut(&mut self.recheck_words),
+            "recheck_args" => cast_slice_mut(&mut self.recheck_args),
             "undecided" => cast_slice_mut(&mut self.undecided),
             "counters" => bytes_of_mut(&mut self.counters),
             "refine_args" => cast_slice_mut(&mut self.refine_args),
@@ -219,7 +246,12 @@ fn near_one(mesh: &TopologyAwareMesh) -> NearOne {
 }
 
 fn items(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {
-    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block })
+    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block, by_positions: 0 })
+}
+
+/// Whether the faces of a part are tested by positions alone: every third one's, but not those of a part alone.
+fn is_by_positions(index: u32) -> bool {
+    index % 3 == 2
 }
 
 /// Work items may come in any order.

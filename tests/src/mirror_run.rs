@@ -17,6 +17,23 @@ impl Frame {
                 face_items: &self.face_items,
                 casters: &self.casters,
                 caster_lights: &self.caster_lights,
+                planes: &self.planes,
+                lit: &mut self.lit,
+                recheck_words: &mut self.recheck_words,
+                counters: &mut self.counters,
+            }
+            .run(),
+            "write_recheck_args" => mirror::WriteRecheckArgs {
+                view: &self.view,
+                counters: &self.counters,
+                recheck_args: &mut self.recheck_args,
+            }
+            .run(),
+            "recheck_faces" => mirror::RecheckFaces {
+                view: &self.view,
+                recheck_words: &self.recheck_words,
+                casters: &self.casters,
+                caster_lights: &self.caster_lights,
                 faces: &self.faces,
                 positions: &self.positions,
                 lit: &mut self.lit,

@@ -131,9 +131,13 @@ impl CasterSet {
                 let items = |first: u32, blocks: u32| {
                     let first_block = first / BLOCK_SIZE;
                     let caster = here.caster as u32;
-                    (first_block..first_block + blocks).map(move |block| WorkItem { caster, block })
+                    (first_block..first_block + blocks).map(move |block| WorkItem { caster, block, by_positions: 0 })
                 };
-                table.face_items.extend(items(piece.first_face, piece.face_blocks()));
+                let face_items = items(piece.first_face, piece.face_blocks()).map(|item| {
+                    let by_positions = key.live.is_some() || !meshes.has_planes(key.mesh, item.block);
+                    WorkItem { by_positions: by_positions.into(), ..item }
+                });
+                table.face_items.extend(face_items);
                 table.edge_items.extend(items(piece.first_edge, piece.edge_blocks()));
             }
         }

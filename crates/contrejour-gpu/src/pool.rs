@@ -1,9 +1,10 @@
 //! Meshes side by side in pooled buffers, so that one dispatch and one draw serve all of a page.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use contrejour_layout::{Caster, Edge, Face, VertexEdge};
-use contrejour_mesh::{EdgeClass, TopologyAwareMesh};
+use contrejour_layout::{BLOCK_SIZE, Caster, Edge, Face, VertexEdge};
+use contrejour_mesh::{EdgeClass, FacePlanes, TopologyAwareMesh};
 use contrejour_plan::{BufferKind, DeviceFacts, MeshFacts, MeshPiece, NearOne, PagePlan};
 
 use crate::pieces::{mesh_pieces, vertex_edges_of_piece};
@@ -26,6 +27,8 @@ pub(crate) struct PooledMesh {
     pub topology: Arc<TopologyAwareMesh>,
     pub first_position_word: u32,
     pub near_one: NearOne,
+    /// Blocks of faces without planes that fit, as far as its planes have been asked for.
+    unfit_blocks: BTreeSet<u32>,
 }
 
 /// Where a piece begins in the pools of its page.
@@ -54,6 +57,7 @@ impl MeshPool {
             first_position_word: self.position_words as u32,
             near_one: NearOne::of_box(topology.bounds_min, topology.bounds_max),
             topology,
+            unfit_blocks: BTreeSet::new(),
         });
         self.position_words = words;
         Ok(MeshHandle(index))
@@ -120,6 +124,23 @@ impl MeshPool {
     pub fn fill_positions(&self, mut write: impl FnMut(u64, &[u8])) {
         for mesh in &self.meshes {
             write(4 * u64::from(mesh.first_position_word), bytemuck::cast_slice(&mesh.topology.positions));
+        }
+    }
+
+    /// Whether the planes of all faces of a block fit, as far as they have been asked for.
+    pub fn has_planes(&self, handle: MeshHandle, block: u32) -> bool {
+        !self.meshes[handle.0].unfit_blocks.contains(&block)
+    }
+
+    /// Works out and writes the planes of a page's faces with `write(byte offset, bytes)`. They are not kept: pools are
+    /// filled when meshes come, and seldom else.
+    pub fn fill_planes(&mut self, page: &PagePlan, mut write: impl FnMut(u64, &[u8])) {
+        for (piece, place) in page.pieces.iter().zip(self.places(page)) {
+            let PooledMesh { topology, unfit_blocks, .. } = &mut self.meshes[piece.mesh];
+            let faces = &topology.faces[piece.first_face as usize..][..piece.faces as usize];
+            let planes = FacePlanes::new(&topology.positions, faces);
+            write(size_of::<[f32; 4]>() as u64 * u64::from(place.face), bytemuck::cast_slice(&planes.planes));
+            unfit_blocks.extend(planes.unfit_blocks.iter().map(|block| piece.first_face / BLOCK_SIZE + block));
         }
     }
 

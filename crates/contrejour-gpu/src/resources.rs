@@ -123,7 +123,7 @@ fn usage(kind: BufferKind) -> wgpu::BufferUsages {
     common
         | match kind {
             BufferKind::LightView | BufferKind::ReceiverView => wgpu::BufferUsages::UNIFORM,
-            BufferKind::RefineArgs | BufferKind::ExtrudeArgs | BufferKind::DrawArgs => {
+            BufferKind::RecheckArgs | BufferKind::RefineArgs | BufferKind::ExtrudeArgs | BufferKind::DrawArgs => {
                 wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT
             }
             _ => wgpu::BufferUsages::STORAGE,

@@ -5,7 +5,9 @@ use std::time::{Duration, Instant};
 
 use contrejour_layout::{CasterLight, Counters, EyeView};
 use contrejour_mesh::TopologyAwareMesh;
-use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, PagePlan, TextureKind, VisibilityKind};
+use contrejour_plan::{
+    BufferKind, Capacity, DeviceFacts, FramePlan, Omitted, PagePlan, Stage, TextureKind, VisibilityKind,
+};
 
 use crate::casters::CasterSet;
 use crate::device_watch::{DeviceWatch, OpenScopes};
@@ -342,9 +344,16 @@ impl Shadows {
         if made.buffers.contains(&(BufferKind::Positions, 0)) {
             self.pool.fill_positions(|offset, data| write((BufferKind::Positions, 0), offset, data));
         }
+        // Where nobody reads planes, their buffer has no room for them.
+        let lacks_planes =
+            draft.plan.reason(&Omitted::FacePlanes).is_some() || !draft.plan.has_stage(Stage::ClassifyFaces);
         let old_pages = self.plan.as_ref().map_or(&[][..], |plan| &plan.pages);
         for (page, index) in draft.plan.pages.iter().zip(0..) {
             let holds_others = old_pages.get(index).is_none_or(|old| old.pieces != page.pieces);
+            let has_new_planes = holds_others || made.buffers.contains(&(BufferKind::Planes, index));
+            if has_new_planes && !lacks_planes {
+                self.pool.fill_planes(page, |offset, data| write((BufferKind::Planes, index), offset, data));
+            }
             for kind in MESH_POOLS {
                 if holds_others || made.buffers.contains(&(kind, index)) {
                     self.pool.fill(kind, page, |offset, data| write((kind, index), offset, data));

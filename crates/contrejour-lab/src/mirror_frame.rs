@@ -4,13 +4,11 @@ use std::borrow::Cow;
 
 use bytemuck::cast_slice;
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Counters, DispatchArgs, Edge, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView,
-    OUTLINE_WORDS_PER_BLOCK, WorkItem,
+    BLOCK_SIZE, Caster, CasterLight, Counters, Edge, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView,
+    OUTLINE_WORDS_PER_BLOCK, RecheckWord, WorkItem,
 };
 use contrejour_mesh::TopologyAwareMesh;
-use contrejour_mirror::{
-    ClassifyFaces, FrameInputs, FrameOutputs, RefineFaces, ResolveFaces, WriteRefineArgs, run_frame,
-};
+use contrejour_mirror::{ClassifyFaces, FrameInputs, FrameOutputs, RecheckFaces, RefineFaces, ResolveFaces, run_frame};
 use contrejour_plan::{Light, LightError, NearOne, ShadowSettings, ViewCounts, caster_light, views};
 use glam::DMat4;
 
@@ -29,6 +27,7 @@ pub(crate) struct MirrorFrame<'a> {
     edge_items: Vec<WorkItem>,
     positions: Cow<'a, [u32]>,
     faces: Cow<'a, [Face]>,
+    planes: Vec<[f32; 4]>,
     edges: Cow<'a, [Edge]>,
     incidences: Cow<'a, [u32]>,
     vertex_edges: Vec<u32>,
@@ -50,15 +49,21 @@ impl<'a> MirrorFrame<'a> {
             edge_items: Vec::new(),
             positions: Cow::default(),
             faces: Cow::default(),
+            planes: Vec::new(),
             edges: Cow::default(),
             incidences: Cow::default(),
             vertex_edges: Vec::new(),
         };
         for ((mesh, world_from_object), index) in meshes.iter().zip(0..) {
+            let planes = mesh.face_planes();
+            frame.planes.extend(&planes.planes);
             let caster = frame.add(mesh);
             let light = caster_light(&view, world_from_object, &near_one(mesh));
             if light.casts == 1 {
-                frame.face_items.extend(items(index, caster.face_count));
+                frame.face_items.extend(items(index, caster.face_count).map(|item| {
+                    let by_positions = !planes.block_fits(item.block);
+                    WorkItem { by_positions: by_positions.into(), ..item }
+                }));
                 frame.edge_items.extend(items(index, caster.edge_count));
             }
             frame.caster_lights.push(light);
@@ -127,6 +132,7 @@ impl<'a> MirrorFrame<'a> {
             caster_lights: &self.caster_lights,
             positions: &self.positions,
             faces: &self.faces,
+            planes: &self.planes,
             edges: &self.edges,
             incidences: &self.incidences,
             vertex_edges: &self.vertex_edges,
@@ -135,14 +141,25 @@ impl<'a> MirrorFrame<'a> {
 
     /// The stages that find lit faces, alone: one bit a face.
     pub fn lit(&self) -> Vec<u32> {
-        let Self { view, face_items, casters, caster_lights, faces, positions, .. } = self;
+        let Self { view, face_items, casters, caster_lights, faces, planes, positions, .. } = self;
         let mut lit = vec![0; casters.iter().map(lit_end).max().unwrap_or(0) as usize];
         let mut undecided = vec![FaceRef::default(); view.undecided_capacity as usize];
         let mut counters = Counters::default();
-        let mut refine_args = [DispatchArgs::default(); 2];
+        let mut recheck_words = vec![RecheckWord::default(); lit.len()];
         ClassifyFaces {
             view,
             face_items,
+            casters,
+            caster_lights,
+            planes,
+            lit: &mut lit,
+            recheck_words: &mut recheck_words,
+            counters: &mut counters,
+        }
+        .run();
+        RecheckFaces {
+            view,
+            recheck_words: &recheck_words,
             casters,
             caster_lights,
             faces,
@@ -152,7 +169,6 @@ impl<'a> MirrorFrame<'a> {
             counters: &mut counters,
         }
         .run();
-        WriteRefineArgs { view, counters: &counters, refine_args: &mut refine_args }.run();
         let (undecided, counters) = (&undecided, &counters);
         RefineFaces { view, undecided, counters, casters, caster_lights, faces, positions, lit: &mut lit }.run();
         ResolveFaces { view, undecided, counters, casters, caster_lights, faces, positions, lit: &mut lit }.run();
@@ -173,7 +189,7 @@ fn near_one(mesh: &TopologyAwareMesh) -> NearOne {
 }
 
 fn items(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {
-    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block })
+    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block, by_positions: 0 })
 }
 
 /// Borrows what comes first, since most frames have one mesh.

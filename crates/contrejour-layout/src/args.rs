@@ -17,10 +17,10 @@ shared_struct! {
         corners: u32,
         /// Outline edges that project to a point and have no quad.
         point_edges: u32,
+        /// Words of lit bits with faces that their planes leave undecided.
+        recheck_words: u32,
         /// Zero.
         unused_0: u32,
-        /// Zero.
-        unused_1: u32,
     }
 }
 
@@ -34,6 +34,7 @@ impl core::iter::Sum for Counters {
             quads: sum.quads.saturating_add(page.quads),
             corners: sum.corners.saturating_add(page.corners),
             point_edges: sum.point_edges.saturating_add(page.point_edges),
+            recheck_words: sum.recheck_words.saturating_add(page.recheck_words),
             ..sum
         })
     }

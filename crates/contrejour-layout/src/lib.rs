@@ -36,8 +36,11 @@ pub use topology::*;
 /// Faces or edges in one work item, and invocations in one workgroup.
 pub const BLOCK_SIZE: u32 = 64;
 
+/// Faces in one word of lit bits.
+pub const FACES_PER_WORD: u32 = 32;
+
 /// Words of lit bits that one block of faces fills: one bit a face.
-pub const LIT_WORDS_PER_BLOCK: u32 = BLOCK_SIZE / 32;
+pub const LIT_WORDS_PER_BLOCK: u32 = BLOCK_SIZE / FACES_PER_WORD;
 
 /// Words of outline sides that one block of edges fills: two bits an edge.
 pub const OUTLINE_WORDS_PER_BLOCK: u32 = BLOCK_SIZE / 16;
@@ -60,6 +63,7 @@ pub const SHARED_STRUCTS: &[SharedStruct] = &[
     WorkItem::SHARED,
     CasterLight::SHARED,
     LightView::SHARED,
+    RecheckWord::SHARED,
     FaceRef::SHARED,
     SilhouetteEdge::SHARED,
     Quad::SHARED,

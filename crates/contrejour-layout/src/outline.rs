@@ -3,6 +3,18 @@
 use crate::shared_struct::shared_struct;
 
 shared_struct! {
+    /// A word of lit bits with faces that their planes leave undecided.
+    RecheckWord {
+        /// Index of the caster.
+        caster: u32,
+        /// Which word of its lit bits: 32 faces.
+        word: u32,
+        /// The bits of its undecided faces.
+        faces: u32,
+    }
+}
+
+shared_struct! {
     /// One face of one caster.
     FaceRef {
         /// Index of the caster.

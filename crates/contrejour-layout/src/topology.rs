@@ -110,5 +110,8 @@ shared_struct! {
         caster: u32,
         /// Which block of its faces or edges.
         block: u32,
+        /// 1 for a block of faces without stored planes: their positions are the caller's, or a plane does not fit into
+        /// floats. Else 0.
+        by_positions: u32,
     }
 }

@@ -2,11 +2,13 @@
 
 mod load;
 mod normals;
+mod planes;
 mod read_file;
 mod topology;
 mod triangle_mesh;
 
 pub use load::*;
+pub use planes::FacePlanes;
 pub use read_file::{ReadFileError, read_file};
 pub use topology::*;
 pub use triangle_mesh::*;

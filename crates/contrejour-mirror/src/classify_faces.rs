@@ -1,17 +1,16 @@
-//! Decides by floats which faces are lit, as far as a proven bound allows, and lists the faces that it does not decide.
+//! Decides by their stored planes which faces are lit, as far as a proven bound allows, and lists the others for
+//! `recheck_faces`.
 //!
 //! The bound's proof stands in `shaders/compute/classify_faces.wgsl`; it holds for any rounding, so it holds here. A GPU
 //! may round otherwise and list a few other faces; what both decide is equal.
 
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Counters, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView, WorkItem,
+    Caster, CasterLight, Counters, FACES_PER_WORD, LIT_WORDS_PER_BLOCK, LightView, RecheckWord, WorkItem,
 };
-
-use crate::facing::{Bits3, FacingBits, NEAR_SPAN, set_lit};
 
 /// The bindings of `classify_faces`.
 pub struct ClassifyFaces<'a> {
-    /// How many work items there are, and the room in the list of undecided faces.
+    /// How many work items there are.
     pub view: &'a LightView,
     /// Blocks of faces.
     pub face_items: &'a [WorkItem],
@@ -19,15 +18,13 @@ pub struct ClassifyFaces<'a> {
     pub casters: &'a [Caster],
     /// The light as each caster sees it.
     pub caster_lights: &'a [CasterLight],
-    /// Pool of faces.
-    pub faces: &'a [Face],
-    /// Pool of positions, as bits.
-    pub positions: &'a [u32],
+    /// Pool of planes: normal and distance of each face.
+    pub planes: &'a [[f32; 4]],
     /// One bit a face; both words of each block are written.
     pub lit: &'a mut [u32],
-    /// Undecided faces: near ones from the front, far ones from the back.
-    pub undecided: &'a mut [FaceRef],
-    /// Counts the undecided faces.
+    /// Words with faces to recheck.
+    pub recheck_words: &'a mut [RecheckWord],
+    /// Counts the words.
     pub counters: &'a mut Counters,
 }
 
@@ -35,122 +32,65 @@ impl ClassifyFaces<'_> {
     /// Does what the dispatch does.
     pub fn run(mut self) {
         for item in &self.face_items[..self.view.face_item_count as usize] {
-            self.classify_block(*item);
-        }
-    }
-
-    fn classify_block(&mut self, item: WorkItem) {
-        let caster = &self.casters[item.caster as usize];
-        let caster_light = &self.caster_lights[item.caster as usize];
-        let first_word = caster.first_lit_word + item.block * LIT_WORDS_PER_BLOCK;
-        self.lit[first_word as usize..][..LIT_WORDS_PER_BLOCK as usize].fill(0);
-
-        let first_face = item.block * BLOCK_SIZE;
-        for face_id in first_face..caster.face_count.min(first_face + BLOCK_SIZE) {
-            let face = self.faces[caster.first_face.wrapping_add(face_id) as usize];
-            let face_ref = FaceRef { caster: item.caster, face_id };
-            match classify(caster, caster_light, face, self.positions) {
-                Verdict::Lit => set_lit(self.lit, caster, face_ref),
-                Verdict::Unlit => {}
-                Verdict::UndecidedNear => {
-                    let place = self.counters.undecided_near;
-                    self.counters.undecided_near += 1;
-                    if place < self.view.undecided_capacity {
-                        self.undecided[place as usize] = face_ref;
-                    }
-                }
-                Verdict::UndecidedFar => {
-                    let place = self.counters.undecided_far;
-                    self.counters.undecided_far += 1;
-                    if place < self.view.undecided_capacity {
-                        let slot = self.view.undecided_capacity - 1 - place;
-                        self.undecided[slot as usize] = face_ref;
-                    }
-                }
+            for word in 0..LIT_WORDS_PER_BLOCK {
+                self.classify_word(item, item.block * LIT_WORDS_PER_BLOCK + word);
             }
         }
     }
-}
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Verdict {
-    Unlit,
-    Lit,
-    UndecidedNear,
-    UndecidedFar,
-}
-
-fn classify(caster: &Caster, caster_light: &CasterLight, face: Face, positions: &[u32]) -> Verdict {
-    let names_a_vertex_twice = face.a == face.b || face.b == face.c || face.c == face.a;
-    if caster_light.casts == 0 || names_a_vertex_twice {
-        return Verdict::Unlit;
-    }
-    let bits = FacingBits::read(caster, caster_light, face, positions);
-    match is_lit_by_floats(&bits) {
-        Some(true) => Verdict::Lit,
-        Some(false) => Verdict::Unlit,
-        None if !may_have_volume(&bits) => Verdict::Unlit,
-        None if bits.edge_span().length().max(bits.light_span().length()) <= NEAR_SPAN => Verdict::UndecidedNear,
-        None => Verdict::UndecidedFar,
+    fn classify_word(&mut self, item: &WorkItem, word: u32) {
+        let caster = &self.casters[item.caster as usize];
+        let caster_light = &self.caster_lights[item.caster as usize];
+        let first_face_id = word * FACES_PER_WORD;
+        let face_count = caster.face_count.saturating_sub(first_face_id).min(FACES_PER_WORD);
+        let [lit, undecided] = match scaled_light(caster_light) {
+            _ if caster_light.casts == 0 || face_count == 0 => [0, 0],
+            Some(light) if item.by_positions == 0 => {
+                let first_face = caster.first_face.wrapping_add(first_face_id) as usize;
+                classify_by_planes(&self.planes[first_face..][..face_count as usize], light)
+            }
+            _ => [0, u32::MAX >> (FACES_PER_WORD - face_count)],
+        };
+        self.lit[(caster.first_lit_word + word) as usize] = lit;
+        if undecided != 0 {
+            let slot = self.counters.recheck_words as usize;
+            self.counters.recheck_words += 1;
+            self.recheck_words[slot] = RecheckWord { caster: item.caster, word, faces: undecided };
+        }
     }
 }
 
-/// 2^-19: what rounding can do, relative to the sum of the products' magnitudes.
-const ROUNDING: f32 = 1.0 / 524_288.0;
+/// 2^-20: what rounding can do, relative to the sum of the terms' magnitudes.
+const ROUNDING: f32 = 1.0 / 1_048_576.0;
 
-/// 2^-61: what underflow can do, relative to the coordinates' limits.
-const UNDERFLOW: f32 = 1.0 / (1_u64 << 61) as f32;
-
-/// Exponent bits of the largest coordinate for which the bound is proven.
-const EXPONENTS: std::ops::RangeInclusive<u32> = 108..=166;
-
-/// `None`: the bound does not allow a decision.
-fn is_lit_by_floats(bits: &FacingBits) -> Option<bool> {
-    let edge_exponent = max_exponent([bits.a, bits.b, bits.c].as_flattened());
-    let light_exponent = max_exponent([bits.light, bits.light_origin].as_flattened());
-    if !EXPONENTS.contains(&edge_exponent) || !EXPONENTS.contains(&light_exponent) {
-        return None;
+/// Bits of the lit faces and of the undecided ones.
+fn classify_by_planes(planes: &[[f32; 4]], light: [f32; 4]) -> [u32; 2] {
+    let (mut lit, mut not_unlit) = (0, 0);
+    for (plane, bit) in planes.iter().zip(0..) {
+        let terms: [f32; 4] = std::array::from_fn(|i| plane[i] * light[i]);
+        let determinant = terms[0] + terms[1] + terms[2] + terms[3];
+        let bound = ROUNDING * (terms[0].abs() + terms[1].abs() + terms[2].abs() + terms[3].abs());
+        lit |= u32::from(determinant > bound) << bit;
+        not_unlit |= u32::from(determinant > -bound) << bit;
     }
-    let p = float_difference(bits.b, bits.a);
-    let q = float_difference(bits.c, bits.a);
-    let r = float_difference(bits.light, bits.light_origin);
-    let mut determinant = 0.0;
-    let mut size = 0.0;
-    for (x, y, z) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
-        let first = q[y] * r[z];
-        let second = q[z] * r[y];
-        determinant += p[x] * (first - second);
-        size += p[x].abs() * (first.abs() + second.abs());
-    }
-    let edge_limit = power_above(edge_exponent);
-    let bound = ROUNDING * size + UNDERFLOW * edge_limit * edge_limit * power_above(light_exponent);
-    (determinant.abs() > bound).then_some(determinant > 0.0)
+    [lit, not_unlit & !lit]
 }
 
-fn float_difference(x: Bits3, y: Bits3) -> [f32; 3] {
-    std::array::from_fn(|i| f32::from_bits(x[i]) - f32::from_bits(y[i]))
-}
+/// Exponent bits of the largest component of a scaled light.
+const LARGEST_EXPONENT: u32 = 186;
 
-/// The exponent bits of the largest coordinate.
-fn max_exponent(coordinates: &[u32]) -> u32 {
-    let largest = coordinates.iter().map(|bits| bits & 0x7fff_ffff).max();
-    largest.unwrap_or(0) >> 23
-}
+/// So far below it the exponent of a component may be that is not zero.
+const EXPONENT_RANGE: u32 = 99;
 
-/// The power of two above all numbers with these exponent bits.
-fn power_above(exponent: u32) -> f32 {
-    f32::from_bits((exponent + 1) << 23)
-}
-
-/// False when each of the determinant's six products has a factor that is exactly zero.
-fn may_have_volume(bits: &FacingBits) -> bool {
-    let p = differs(bits.b, bits.a);
-    let q = differs(bits.c, bits.a);
-    let r = differs(bits.light, bits.light_origin);
-    [(0, 1, 2), (1, 2, 0), (2, 0, 1)].into_iter().any(|(x, y, z)| p[x] && (q[y] && r[z] || q[z] && r[y]))
-}
-
-fn differs(x: Bits3, y: Bits3) -> [bool; 3] {
-    let are_zeros = |i: usize| (x[i] | y[i]) << 1 == 0;
-    std::array::from_fn(|i| x[i] != y[i] && !are_zeros(i))
+/// The light times a power of two; `None` where its components lie too far apart. A mirrored caster changes the sign.
+fn scaled_light(caster_light: &CasterLight) -> Option<[f32; 4]> {
+    let light = caster_light.light_object;
+    let exponents = light.map(|bits| bits >> 23 & 0xff);
+    let largest = exponents.into_iter().fold(0, u32::max);
+    let is_zero = |bits: u32| bits << 1 == 0;
+    let fits = |i: usize| is_zero(light[i]) || exponents[i] != 0 && largest - exponents[i] <= EXPONENT_RANGE;
+    let sign = if caster_light.mirrored == 0 { 1.0 } else { -1.0 };
+    let scale = LARGEST_EXPONENT.wrapping_sub(largest) << 23;
+    let scaled = |bits: u32| if is_zero(bits) { 0.0 } else { sign * f32::from_bits(bits.wrapping_add(scale)) };
+    (0..4).all(fits).then(|| light.map(scaled))
 }

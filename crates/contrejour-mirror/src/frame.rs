@@ -2,12 +2,12 @@
 
 use contrejour_layout::{
     BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
-    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, SilhouetteEdge, WorkItem,
+    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SilhouetteEdge, WorkItem,
 };
 
 use crate::{
-    BuildCorners, ClassifyFaces, DetectSilhouette, ExtrudeEdges, RefineFaces, ResolveFaces, WriteDrawArgs,
-    WriteExtrudeArgs, WriteRefineArgs,
+    BuildCorners, ClassifyFaces, DetectSilhouette, ExtrudeEdges, RecheckFaces, RefineFaces, ResolveFaces,
+    WriteDrawArgs, WriteExtrudeArgs, WriteRecheckArgs, WriteRefineArgs,
 };
 
 /// What the stages of one light view read: the pooled buffers of all casters.
@@ -27,6 +27,8 @@ pub struct FrameInputs<'a> {
     pub positions: &'a [u32],
     /// Pool of faces.
     pub faces: &'a [Face],
+    /// Pool of planes, by face; not read where work items ask for positions.
+    pub planes: &'a [[f32; 4]],
     /// Pool of edges.
     pub edges: &'a [Edge],
     /// Pool of incidence words.
@@ -50,6 +52,8 @@ pub struct FrameOutputs {
     pub corners: Vec<Corner>,
     /// What was needed, also where a list had no room for it.
     pub counters: Counters,
+    /// The dispatch of `recheck_faces`.
+    pub recheck_args: [DispatchArgs; 1],
     /// The dispatches of `refine_faces` and `resolve_faces`.
     pub refine_args: [DispatchArgs; 2],
     /// The dispatches of `extrude_edges` and `build_corners`.
@@ -86,6 +90,7 @@ impl FrameOutputs {
             quads: vec![Quad::default(); inputs.view.quad_capacity as usize],
             corners: vec![Corner::default(); inputs.view.corner_capacity as usize],
             counters: Counters::default(),
+            recheck_args: Default::default(),
             refine_args: Default::default(),
             extrude_args: Default::default(),
             draw_args: Default::default(),
@@ -94,10 +99,24 @@ impl FrameOutputs {
 
     fn find_lit_faces(&mut self, inputs: &FrameInputs) {
         let &FrameInputs { view, casters, caster_lights, faces, positions, .. } = inputs;
+        let words = view.face_item_count * LIT_WORDS_PER_BLOCK;
+        let mut recheck_words = vec![RecheckWord::default(); words as usize];
         let mut undecided = vec![FaceRef::default(); view.undecided_capacity as usize];
         ClassifyFaces {
             view,
             face_items: inputs.face_items,
+            casters,
+            caster_lights,
+            planes: inputs.planes,
+            lit: &mut self.lit,
+            recheck_words: &mut recheck_words,
+            counters: &mut self.counters,
+        }
+        .run();
+        WriteRecheckArgs { view, counters: &self.counters, recheck_args: &mut self.recheck_args }.run();
+        RecheckFaces {
+            view,
+            recheck_words: &recheck_words,
             casters,
             caster_lights,
             faces,
@@ -188,12 +207,14 @@ mod tests {
             caster_lights: &[],
             positions: &[],
             faces: &[],
+            planes: &[],
             edges: &[],
             incidences: &[],
             vertex_edges: &[],
         };
         let frame = run_frame(&inputs);
         assert_eq!(frame.counters, Counters::default());
+        assert_eq!(frame.recheck_args, [DispatchArgs { x: 0, y: 0, z: 1 }]);
         assert_eq!(frame.refine_args, [DispatchArgs { x: 0, y: 0, z: 1 }; 2]);
         assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [0, 0]);
     }

@@ -28,6 +28,7 @@ mod facing;
 mod frame;
 mod group_args;
 mod image_plane;
+mod recheck_faces;
 mod refine_faces;
 mod resolve_faces;
 #[cfg(test)]
@@ -36,6 +37,7 @@ mod view_depth;
 mod wide_integer;
 mod write_draw_args;
 mod write_extrude_args;
+mod write_recheck_args;
 mod write_refine_args;
 
 pub use build_corners::BuildCorners;
@@ -43,8 +45,10 @@ pub use classify_faces::ClassifyFaces;
 pub use detect_silhouette::DetectSilhouette;
 pub use extrude_edges::ExtrudeEdges;
 pub use frame::{FrameInputs, FrameOutputs, run_frame};
+pub use recheck_faces::RecheckFaces;
 pub use refine_faces::RefineFaces;
 pub use resolve_faces::ResolveFaces;
 pub use write_draw_args::WriteDrawArgs;
 pub use write_extrude_args::WriteExtrudeArgs;
+pub use write_recheck_args::WriteRecheckArgs;
 pub use write_refine_args::WriteRefineArgs;

@@ -45,7 +45,8 @@ impl TestScene {
     pub(crate) fn frame(&self) -> FrameOutputs {
         let topology = self.topology();
         let caster = self.caster(&topology);
-        let face_items = items(caster.face_count);
+        let face_items: Vec<_> =
+            items(caster.face_count).into_iter().map(|item| WorkItem { by_positions: 1, ..item }).collect();
         let edge_items = items(caster.edge_count);
         let positions: Vec<u32> = self.positions.iter().flatten().map(|value| value.to_bits()).collect();
         let faces: Vec<_> = self.faces.iter().map(|&[a, b, c]| Face { a, b, c }).collect();
@@ -61,6 +62,7 @@ impl TestScene {
             caster_lights: &[self.caster_light()],
             positions: &positions,
             faces: &faces,
+            planes: &[],
             edges: &topology.edges,
             incidences: &topology.incidences,
             vertex_edges: &topology.vertex_edges,
@@ -162,5 +164,5 @@ impl TestScene {
 }
 
 fn items(count: u32) -> Vec<WorkItem> {
-    (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { caster: 0, block }).collect()
+    (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { block, ..Default::default() }).collect()
 }

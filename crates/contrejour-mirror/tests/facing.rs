@@ -1,7 +1,8 @@
-//! The three tiers of facing against exact arithmetic, on random and on hostile faces.
+//! The four tiers of facing against exact arithmetic, on random and on hostile faces.
 
-use contrejour_layout::{Caster, CasterLight, Counters, Face, FaceRef, LightView, WorkItem};
-use contrejour_mirror::{ClassifyFaces, RefineFaces, ResolveFaces};
+use contrejour_layout::{Caster, CasterLight, Counters, Face, FaceRef, LightView, RecheckWord, WorkItem};
+use contrejour_mesh::FacePlanes;
+use contrejour_mirror::{ClassifyFaces, RecheckFaces, RefineFaces, ResolveFaces};
 use num_bigint::{BigInt, Sign};
 use proptest::prelude::*;
 
@@ -19,68 +20,136 @@ struct Case {
 /// Where a case was decided, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Decision {
+    by_plane: bool,
     near: u32,
     far: u32,
     lit: bool,
 }
 
+/// Buffers of a frame with one face.
+struct OneFace {
+    casters: [Caster; 1],
+    caster_lights: [CasterLight; 1],
+    faces: [Face; 1],
+    positions: Vec<u32>,
+    planes: FacePlanes,
+    lit: [u32; 2],
+    recheck_words: [RecheckWord; 2],
+    undecided: [FaceRef; 1],
+    counters: Counters,
+}
+
+fn view() -> LightView {
+    LightView { face_item_count: 1, undecided_capacity: 1, ..Default::default() }
+}
+
+impl OneFace {
+    fn new(case: &Case) -> Self {
+        let [x, y, z] = case.light.map(f32::to_bits);
+        let w = if case.is_point { 1.0_f32 } else { 0.0 };
+        let caster_light = CasterLight {
+            light_object: [x, y, z, w.to_bits()],
+            mirrored: case.mirrored.into(),
+            casts: 1,
+            ..Default::default()
+        };
+        let faces = [Face { a: 0, b: 1, c: 2 }];
+        Self {
+            casters: [Caster { position_stride_words: 3, face_count: 1, ..Default::default() }],
+            caster_lights: [caster_light],
+            faces,
+            positions: case.corners.as_flattened().iter().map(|coordinate| coordinate.to_bits()).collect(),
+            planes: FacePlanes::new(&case.corners, &faces),
+            lit: [u32::MAX; 2],
+            recheck_words: Default::default(),
+            undecided: Default::default(),
+            counters: Counters::default(),
+        }
+    }
+
+    fn classify(&mut self, by_positions: bool) {
+        ClassifyFaces {
+            view: &view(),
+            face_items: &[WorkItem { by_positions: by_positions.into(), ..Default::default() }],
+            casters: &self.casters,
+            caster_lights: &self.caster_lights,
+            planes: &self.planes.planes,
+            lit: &mut self.lit,
+            recheck_words: &mut self.recheck_words,
+            counters: &mut self.counters,
+        }
+        .run();
+    }
+
+    fn recheck(&mut self) {
+        RecheckFaces {
+            view: &view(),
+            recheck_words: &self.recheck_words,
+            casters: &self.casters,
+            caster_lights: &self.caster_lights,
+            faces: &self.faces,
+            positions: &self.positions,
+            lit: &mut self.lit,
+            undecided: &mut self.undecided,
+            counters: &mut self.counters,
+        }
+        .run();
+    }
+
+    fn refine(&mut self) {
+        RefineFaces {
+            view: &view(),
+            undecided: &self.undecided,
+            counters: &self.counters,
+            casters: &self.casters,
+            caster_lights: &self.caster_lights,
+            faces: &self.faces,
+            positions: &self.positions,
+            lit: &mut self.lit,
+        }
+        .run();
+    }
+
+    /// Near faces too.
+    fn resolve(&mut self) {
+        let undecided_far = self.counters.undecided_near + self.counters.undecided_far;
+        ResolveFaces {
+            view: &view(),
+            undecided: &self.undecided,
+            counters: &Counters { undecided_far, ..self.counters },
+            casters: &self.casters,
+            caster_lights: &self.caster_lights,
+            faces: &self.faces,
+            positions: &self.positions,
+            lit: &mut self.lit,
+        }
+        .run();
+    }
+}
+
 fn decide(case: &Case) -> Decision {
-    let view = LightView { face_item_count: 1, undecided_capacity: 1, ..Default::default() };
-    let casters = [Caster { position_stride_words: 3, face_count: 1, ..Default::default() }];
-    let [x, y, z] = case.light.map(f32::to_bits);
-    let w = if case.is_point { 1.0_f32 } else { 0.0 };
-    let caster_lights = [CasterLight {
-        light_object: [x, y, z, w.to_bits()],
-        mirrored: case.mirrored.into(),
-        casts: 1,
-        ..Default::default()
-    }];
-    let faces = [Face { a: 0, b: 1, c: 2 }];
-    let positions: Vec<u32> = case.corners.as_flattened().iter().map(|coordinate| coordinate.to_bits()).collect();
-    let mut lit = [u32::MAX; 2];
-    let mut undecided = [FaceRef::default()];
-    let mut counters = Counters::default();
-    ClassifyFaces {
-        view: &view,
-        face_items: &[WorkItem { caster: 0, block: 0 }],
-        casters: &casters,
-        caster_lights: &caster_lights,
-        faces: &faces,
-        positions: &positions,
-        lit: &mut lit,
-        undecided: &mut undecided,
-        counters: &mut counters,
+    let mut face = OneFace::new(case);
+    let fits = face.planes.block_fits(0);
+    face.classify(!fits);
+    let by_plane = face.counters.recheck_words == 0;
+    face.recheck();
+    let undecided = face.lit;
+    face.refine();
+    let lit = if face.counters.undecided_near > 0 { Some(face.lit) } else { None };
+    face.lit = undecided;
+    face.resolve();
+    if let Some(lit) = lit {
+        assert_eq!(lit, face.lit, "short and full integers differ on {case:?}");
     }
-    .run();
-    // The other tier decides an undecided near face too.
-    let mut lit_by_full_integers = lit;
-    let all_far = Counters { undecided_far: counters.undecided_near + counters.undecided_far, ..counters };
-    ResolveFaces {
-        view: &view,
-        undecided: &undecided,
-        counters: &all_far,
-        casters: &casters,
-        caster_lights: &caster_lights,
-        faces: &faces,
-        positions: &positions,
-        lit: &mut lit_by_full_integers,
-    }
-    .run();
-    RefineFaces {
-        view: &view,
-        undecided: &undecided,
-        counters: &counters,
-        casters: &casters,
-        caster_lights: &caster_lights,
-        faces: &faces,
-        positions: &positions,
-        lit: &mut lit,
-    }
-    .run();
-    if counters.undecided_far == 0 {
-        assert_eq!(lit, lit_by_full_integers, "short and full integers differ on {case:?}");
-    }
-    Decision { near: counters.undecided_near, far: counters.undecided_far, lit: lit_by_full_integers[0] == 1 }
+
+    // Positions alone decide alike.
+    let mut by_positions = OneFace::new(case);
+    by_positions.classify(true);
+    by_positions.recheck();
+    by_positions.resolve();
+    assert_eq!(face.lit, by_positions.lit, "planes and positions differ on {case:?}");
+    let Counters { undecided_near: near, undecided_far: far, .. } = face.counters;
+    Decision { by_plane, near, far, lit: face.lit[0] == 1 }
 }
 
 fn is_lit_exactly(case: &Case) -> bool {
@@ -214,23 +283,38 @@ const UPRIGHT: Case = Case {
     mirrored: false,
 };
 
+const BY_PLANE: Decision = Decision { by_plane: true, near: 0, far: 0, lit: false };
+const BY_POSITIONS: Decision = Decision { by_plane: false, ..BY_PLANE };
+
 #[test]
-fn floats_decide_plain_faces() {
-    assert_eq!(decide(&UPRIGHT), Decision { near: 0, far: 0, lit: true });
-    assert_eq!(decide(&Case { mirrored: true, ..UPRIGHT }), Decision { near: 0, far: 0, lit: false });
+fn planes_decide_plain_faces() {
+    assert_eq!(decide(&UPRIGHT), Decision { lit: true, ..BY_PLANE });
+    assert_eq!(decide(&Case { mirrored: true, ..UPRIGHT }), BY_PLANE);
 }
 
 #[test]
-fn axis_aligned_edge_on_faces_need_no_integers() {
-    let edge_on = Case { light: [0.6, 0.8, 0.0], ..UPRIGHT };
-    assert_eq!(decide(&edge_on), Decision { near: 0, far: 0, lit: false });
+fn planes_decide_axis_aligned_edge_on_faces() {
+    for mirrored in [false, true] {
+        assert_eq!(decide(&Case { light: [0.6, 0.8, 0.0], mirrored, ..UPRIGHT }), BY_PLANE);
+    }
+}
+
+#[test]
+fn positions_decide_where_no_plane_fits() {
+    let mut corners = UPRIGHT.corners;
+    corners[2][2] = 1e-30;
+    let steep = Case { corners, ..UPRIGHT };
+    assert_eq!(decide(&steep), Decision { lit: true, ..BY_POSITIONS });
+    // So they do under a light whose components lie too far apart.
+    let light = [1e-30, 0.0, 1.0];
+    assert_eq!(decide(&Case { light, ..UPRIGHT }), Decision { lit: true, ..BY_POSITIONS });
 }
 
 #[test]
 fn short_integers_decide_close_exponents() {
     let tilted = Case { corners: [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0], [2.0, 1.0, 1.0]], ..UPRIGHT };
     let edge_on = Case { light: [3.0, 3.0, 4.0], ..tilted };
-    assert_eq!(decide(&edge_on), Decision { near: 1, far: 0, lit: false });
+    assert_eq!(decide(&edge_on), Decision { near: 1, ..BY_POSITIONS });
     let above = Case { light: [3.0_f32.next_down(), 3.0, 4.0], ..tilted };
     assert_eq!(decide(&above).lit, is_lit_exactly(&above));
     assert_ne!(decide(&above).lit, decide(&Case { mirrored: true, ..above }).lit);
@@ -239,7 +323,7 @@ fn short_integers_decide_close_exponents() {
 #[test]
 fn full_integers_decide_the_smallest_against_the_largest() {
     let hair = Case { light: [f32::MAX, f32::MAX, f32::from_bits(1)], is_point: true, ..UPRIGHT };
-    assert_eq!(decide(&hair), Decision { near: 0, far: 1, lit: true });
+    assert_eq!(decide(&hair), Decision { far: 1, lit: true, ..BY_POSITIONS });
 }
 
 #[test]

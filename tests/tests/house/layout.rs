@@ -9,6 +9,7 @@ use crate::modules::{self, Module, parse, workspace};
 /// Constants of the layout crate by name.
 const CONSTANTS: &[(&str, u32)] = &[
     ("BLOCK_SIZE", layout::BLOCK_SIZE),
+    ("FACES_PER_WORD", layout::FACES_PER_WORD),
     ("LIT_WORDS_PER_BLOCK", layout::LIT_WORDS_PER_BLOCK),
     ("OUTLINE_WORDS_PER_BLOCK", layout::OUTLINE_WORDS_PER_BLOCK),
     ("MAX_GROUPS_X", layout::MAX_GROUPS_X),
@@ -107,14 +108,14 @@ fn the_table_has_every_constant_of_the_layout_crate() {
 #[test]
 fn the_comparers_find_planted_faults() {
     let module = |wgsl: &str| Module { name: "planted".into(), wgsl: wgsl.into() };
-    let good = "struct WorkItem { caster: u32, block: u32 } const BLOCK_SIZE = 64u;";
+    let good = "struct WorkItem { caster: u32, block: u32, by_positions: u32 } const BLOCK_SIZE = 64u;";
     assert_eq!(compare_structs(&module(good)), Ok(vec!["WorkItem"]));
     assert_eq!(compare_constants(&module(good)), Ok(vec!["BLOCK_SIZE"]));
     for faulty in [
-        "struct WorkItem { block: u32, caster: u32 }",
-        "struct WorkItem { caster: u32 }",
-        "struct WorkItem { caster: u32, block: u32, more: u32 }",
-        "struct WorkItem { caster: vec4u, block: u32 }",
+        "struct WorkItem { block: u32, caster: u32, by_positions: u32 }",
+        "struct WorkItem { caster: u32, block: u32 }",
+        "struct WorkItem { caster: u32, block: u32, by_positions: u32, more: u32 }",
+        "struct WorkItem { caster: vec4u, block: u32, by_positions: u32 }",
     ] {
         assert!(compare_structs(&module(faulty)).is_err_and(|text| text.contains("WorkItem")), "{faulty}");
     }

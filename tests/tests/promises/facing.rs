@@ -52,13 +52,16 @@ fn hostile_faces_are_exact(gpu: &Gpu) -> Outcome {
 }
 
 /// Faults in the guards of the tiers.
-const FAULTS: [Fault; 5] = [
+const FAULTS: [Fault; 7] = [
+    // A hundredth of the bound of planes.
+    Fault::Replaced { stage: "classify_faces", piece: "0x1p-20;", fault: "0x1p-20 / 100.0;" },
+    Fault::Skipped { stage: "recheck_faces" },
     // A hundredth of the bound for rounding.
-    Fault::Replaced { stage: "classify_faces", piece: "0x1p-19;", fault: "0x1p-19 / 100.0;" },
+    Fault::Replaced { stage: "recheck_faces", piece: "0x1p-19;", fault: "0x1p-19 / 100.0;" },
     // No bound for underflow.
-    Fault::Replaced { stage: "classify_faces", piece: "0x1p-61;", fault: "0.0;" },
+    Fault::Replaced { stage: "recheck_faces", piece: "0x1p-61;", fault: "0.0;" },
     // More bits than short integers hold.
-    Fault::Replaced { stage: "classify_faces", piece: "NEAR_SPAN = 61u;", fault: "NEAR_SPAN = 70u;" },
+    Fault::Replaced { stage: "recheck_faces", piece: "NEAR_SPAN = 61u;", fault: "NEAR_SPAN = 70u;" },
     Fault::Skipped { stage: "refine_faces" },
     Fault::Skipped { stage: "resolve_faces" },
 ];

@@ -17,8 +17,10 @@ use glam::DVec3;
 use libtest_mimic::Trial;
 
 /// Stages whose twins end with the corners.
-const STAGES: [&str; 8] = [
+const STAGES: [&str; 10] = [
     "classify_faces",
+    "write_recheck_args",
+    "recheck_faces",
     "write_refine_args",
     "refine_faces",
     "resolve_faces",

@@ -57,7 +57,15 @@ fn are_exact_and_whole(gpu: &Gpu) -> Outcome {
     say(&format!("{} silhouette edges are exact and closed", silhouettes.len()));
 
     let mut twin = Frame::new(&mesh.parts, &light, &ShadowSettings::default());
-    for stage in ["classify_faces", "write_refine_args", "refine_faces", "resolve_faces", "detect_silhouette"] {
+    for stage in [
+        "classify_faces",
+        "write_recheck_args",
+        "recheck_faces",
+        "write_refine_args",
+        "refine_faces",
+        "resolve_faces",
+        "detect_silhouette",
+    ] {
         twin.run_mirror(stage);
     }
     compare_records("silhouette edge", &twin.silhouettes[..silhouettes.len()], &silhouettes, 0.0)?;

@@ -1,104 +1,78 @@
-//! Lit bits by floats, and the lists of faces that floats do not decide.
+//! Lit bits by stored planes, and the list of words with faces that planes do not decide.
 //!
-//! Near its bound the float test may decide a face on one side and list it on the other, since devices fuse and round
-//! as they like. So what must be equal is what follows from the bound: a bit that is decided is the exact one, and
-//! every face is either decided or listed, once, in the tier that its exponents ask for. How many faces are listed on
-//! one side only is bounded.
+//! As for `recheck_faces`, what must be equal is what follows from the bound: a bit that is decided is the exact one, and
+//! every face is either decided or listed, once. How many faces are listed on one side only is bounded.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use contrejour_layout::{Counters, FaceRef};
+use contrejour_layout::{BLOCK_SIZE, LIT_WORDS_PER_BLOCK};
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use libtest_mimic::Trial;
 
-use crate::parity::{Case, for_each_case, run, stage};
+use crate::parity::{check_bits, for_each_case, run, stage};
 
 /// Of the faces that one side lists, so many may be decided by the other: one, and one in fifty.
-const LISTED_ON_ONE_SIDE: usize = 50;
+const LISTED_ON_ONE_SIDE: u32 = 50;
 
 pub fn trials() -> Vec<Trial> {
     vec![gpu_trial("classify_faces::decides_right_or_lists", decides_right_or_lists)]
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Tier {
-    Near,
-    Far,
-}
-
-type Face = (u32, u32);
-
 fn decides_right_or_lists(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "classify_faces");
-    let (mut listed_near, mut listed_far) = (0, 0);
+    let (mut by_planes, mut by_positions) = (0, 0);
     for_each_case(&[], |case| {
         let mut before = case.frame.clone();
         before.lit.fill(u32::MAX);
-        let outputs = run(gpu, &stage, &before, before.view.face_item_count);
+        let groups = before.view.face_item_count.div_ceil(BLOCK_SIZE / LIT_WORDS_PER_BLOCK);
+        let outputs = run(gpu, &stage, &before, groups);
         let mut after = before.clone();
         after.lit = outputs.get("lit");
-        after.undecided = outputs.get("undecided");
+        after.recheck_words = outputs.get("recheck_words");
         after.counters = outputs.get("counters")[0];
 
-        let mut twin = before;
+        let mut twin = before.clone();
         twin.run_mirror("classify_faces");
         let (listed, listed_by_twin) = (listed(&after)?, listed(&twin)?);
-        listed_near += after.counters.undecided_near;
-        listed_far += after.counters.undecided_far;
-        check_tiers(&listed, &listed_by_twin)?;
-        check_bits(case, &after, &listed)
+        check_listed(&listed, &listed_by_twin)?;
+        by_positions += before.face_items.iter().filter(|item| item.by_positions == 1).count();
+        by_planes += before.face_items.iter().filter(|item| item.by_positions == 0).count();
+        let stages = [
+            "classify_faces",
+            "write_recheck_args",
+            "recheck_faces",
+            "write_refine_args",
+            "refine_faces",
+            "resolve_faces",
+        ];
+        let is_listed = |caster, face_id: u32| {
+            listed.get(&(caster, face_id / 32)).is_some_and(|faces| faces >> (face_id % 32) & 1 == 1)
+        };
+        check_bits(&before, &stages, &after, is_listed)
     })?;
-    if listed_near > 0 && listed_far > 0 { Ok(()) } else { Err("no case has undecided faces in both tiers".into()) }
+    if by_planes > 0 && by_positions > 0 { Ok(()) } else { Err("all blocks are tested in one way".into()) }
 }
 
-/// The faces of both lists; the counters must not count past them.
-fn listed(frame: &Frame) -> Result<BTreeMap<Face, Tier>, String> {
-    let Counters { undecided_near, undecided_far, .. } = frame.counters;
-    let (near, far) = (undecided_near as usize, undecided_far as usize);
-    if near + far > frame.undecided.len() {
-        return Err(format!("{near} near and {far} far faces in a list of {}", frame.undecided.len()));
+/// The bits of the listed faces by caster and word.
+fn listed(frame: &Frame) -> Result<BTreeMap<(u32, u32), u32>, String> {
+    let count = frame.counters.recheck_words as usize;
+    let words = frame.recheck_words.get(..count).ok_or_else(|| format!("{count} words do not fit the list"))?;
+    let listed: BTreeMap<_, _> = words.iter().map(|word| ((word.caster, word.word), word.faces)).collect();
+    if listed.values().any(|faces| *faces == 0) {
+        return Err("a word without faces is listed".into());
     }
-    let tiers = frame.undecided[..near].iter().map(|face| (face, Tier::Near));
-    let tiers = tiers.chain(frame.undecided[frame.undecided.len() - far..].iter().map(|face| (face, Tier::Far)));
-    let listed: BTreeMap<_, _> = tiers.map(|(&FaceRef { caster, face_id }, tier)| ((caster, face_id), tier)).collect();
-    if listed.len() == near + far { Ok(listed) } else { Err("a face is listed twice".into()) }
+    if listed.len() == count { Ok(listed) } else { Err("a word is listed twice".into()) }
 }
 
-fn check_tiers(listed: &BTreeMap<Face, Tier>, listed_by_twin: &BTreeMap<Face, Tier>) -> Outcome {
-    let mut on_one_side: BTreeSet<_> = listed_by_twin.keys().filter(|face| !listed.contains_key(face)).collect();
-    for (face, tier) in listed {
-        match listed_by_twin.get(face) {
-            None => drop(on_one_side.insert(face)),
-            Some(twin_tier) if twin_tier == tier => {}
-            Some(twin_tier) => return Err(format!("face {face:?} is {tier:?}, its twin {twin_tier:?}")),
-        }
-    }
-    let allowed = 1 + listed.len() / LISTED_ON_ONE_SIDE;
-    if on_one_side.len() <= allowed {
+fn check_listed(listed: &BTreeMap<(u32, u32), u32>, listed_by_twin: &BTreeMap<(u32, u32), u32>) -> Outcome {
+    let faces = |listed: &BTreeMap<_, u32>, word| listed.get(word).copied().unwrap_or(0);
+    let words = listed.keys().chain(listed_by_twin.keys().filter(|word| !listed.contains_key(word)));
+    let on_one_side: u32 = words.map(|word| (faces(listed, word) ^ faces(listed_by_twin, word)).count_ones()).sum();
+    let allowed = 1 + listed.values().map(|faces| faces.count_ones()).sum::<u32>() / LISTED_ON_ONE_SIDE;
+    if on_one_side <= allowed {
         return Ok(());
     }
-    Err(format!("{} faces are listed on one side only, {allowed} are allowed", on_one_side.len()))
-}
-
-/// Decided bits are exact, listed ones are clear, and bits behind the last face are clear.
-fn check_bits(case: &Case, after: &Frame, listed: &BTreeMap<Face, Tier>) -> Outcome {
-    let mut exact = case.frame.clone();
-    for stage in ["classify_faces", "write_refine_args", "refine_faces", "resolve_faces"] {
-        exact.run_mirror(stage);
-    }
-    for item in &after.face_items {
-        let caster = &after.casters[item.caster as usize];
-        for face_id in 64 * item.block..64 * (item.block + 1) {
-            let word = (caster.first_lit_word + face_id / 32) as usize;
-            let bit = |lit: &[u32]| lit[word] >> (face_id % 32) & 1;
-            let face = (item.caster, face_id);
-            let expected = if listed.contains_key(&face) { 0 } else { bit(&exact.lit) };
-            if bit(&after.lit) != expected {
-                return Err(format!("face {face:?}: expected bit {expected}, found {}", bit(&after.lit)));
-            }
-        }
-    }
-    Ok(())
+    Err(format!("{on_one_side} faces are listed on one side only, {allowed} are allowed"))
 }

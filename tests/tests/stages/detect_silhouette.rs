@@ -12,7 +12,8 @@ use libtest_mimic::Trial;
 
 use crate::parity::{for_each_case, run, stage};
 
-const BEFORE: [&str; 4] = ["classify_faces", "write_refine_args", "refine_faces", "resolve_faces"];
+const BEFORE: [&str; 6] =
+    ["classify_faces", "write_recheck_args", "recheck_faces", "write_refine_args", "refine_faces", "resolve_faces"];
 
 pub fn trials() -> Vec<Trial> {
     vec![

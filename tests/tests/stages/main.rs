@@ -7,10 +7,12 @@ mod device_errors;
 mod extrude_edges;
 mod outline_balls;
 mod parity;
+mod recheck_faces;
 mod refine_faces;
 mod resolve_faces;
 mod write_draw_args;
 mod write_extrude_args;
+mod write_recheck_args;
 mod write_refine_args;
 
 use std::process::ExitCode;
@@ -19,6 +21,8 @@ fn main() -> ExitCode {
     let trials = [
         device_errors::trials(),
         classify_faces::trials(),
+        write_recheck_args::trials(),
+        recheck_faces::trials(),
         write_refine_args::trials(),
         refine_faces::trials(),
         resolve_faces::trials(),

@@ -24,12 +24,22 @@ const FILES: [&str; 9] = [
 ];
 
 /// What has run when edges are extruded.
-pub const BEFORE_EXTRUSION: [&str; 6] =
-    ["classify_faces", "write_refine_args", "refine_faces", "resolve_faces", "detect_silhouette", "write_extrude_args"];
+pub const BEFORE_EXTRUSION: [&str; 8] = [
+    "classify_faces",
+    "write_recheck_args",
+    "recheck_faces",
+    "write_refine_args",
+    "refine_faces",
+    "resolve_faces",
+    "detect_silhouette",
+    "write_extrude_args",
+];
 
 /// What has run when corners are built.
-pub const BEFORE_CORNERS: [&str; 7] = [
+pub const BEFORE_CORNERS: [&str; 9] = [
     "classify_faces",
+    "write_recheck_args",
+    "recheck_faces",
     "write_refine_args",
     "refine_faces",
     "resolve_faces",
@@ -115,4 +125,26 @@ pub fn run(gpu: &Gpu, stage: &StageRun, frame: &Frame, groups: u32) -> Outputs {
     let groups = if groups > 3 { [3, groups.div_ceil(3), 1] } else { [groups, 1, 1] };
     let inputs: Vec<_> = stage.bindings().map(|name| (name, frame.bytes(name))).collect();
     stage.run(gpu, groups, &inputs)
+}
+
+/// Decided bits are exact, listed ones are clear, and bits behind the last face are clear. The stages are those that lead
+/// from before to the exact bits.
+pub fn check_bits(before: &Frame, stages: &[&str], after: &Frame, is_listed: impl Fn(u32, u32) -> bool) -> Outcome {
+    let mut exact = before.clone();
+    for stage in stages {
+        exact.run_mirror(stage);
+    }
+    for item in &after.face_items {
+        let caster = &after.casters[item.caster as usize];
+        for face_id in 64 * item.block..64 * (item.block + 1) {
+            let word = (caster.first_lit_word + face_id / 32) as usize;
+            let bit = |lit: &[u32]| lit[word] >> (face_id % 32) & 1;
+            let expected = if is_listed(item.caster, face_id) { 0 } else { bit(&exact.lit) };
+            if bit(&after.lit) != expected {
+                let face = (item.caster, face_id);
+                return Err(format!("face {face:?}: expected bit {expected}, found {}", bit(&after.lit)));
+            }
+        }
+    }
+    Ok(())
 }

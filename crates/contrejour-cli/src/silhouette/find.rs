@@ -59,8 +59,11 @@ fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<Silhouette
     }
     let face_count = topology.faces.len() as u32;
     let edge_count = topology.candidate_edge_count;
-    let blocks = |count: u32| (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { caster: 0, block });
-    let face_items: Vec<WorkItem> = blocks(face_count).collect();
+    let planes = topology.face_planes();
+    let blocks = |count: u32| (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { block, ..WorkItem::default() });
+    let by_positions = |block| u32::from(!planes.block_fits(block));
+    let face_items = blocks(face_count).map(|item| WorkItem { by_positions: by_positions(item.block), ..item });
+    let face_items: Vec<WorkItem> = face_items.collect();
     let edge_items: Vec<WorkItem> = blocks(edge_count).collect();
     let caster = Caster {
         position_stride_words: 3,
@@ -87,6 +90,7 @@ fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<Silhouette
         caster_lights: &[caster_light],
         positions: bytemuck::cast_slice(&topology.positions),
         faces: &topology.faces,
+        planes: &planes.planes,
         edges: &topology.edges,
         incidences: &topology.incidences,
         vertex_edges: &[],

@@ -3,10 +3,10 @@ use contrejour_plan::{BufferKind, Stage};
 use super::{ComputeStage, Dispatch};
 use crate::wgsl::wgsl;
 
-/// One lit bit for each face, by floats where their bound allows; the others are listed.
+/// One lit bit for each face, by its stored plane where the bound allows; the others are listed by words.
 pub(super) const CLASSIFY_FACES: ComputeStage = ComputeStage {
     stage: Stage::ClassifyFaces,
-    wgsl: wgsl!("compute/classify_faces", "topology", "light", "outline", "invocation", "facing", "atomic_counters"),
-    writes: &[BufferKind::Lit, BufferKind::Undecided, BufferKind::Counters],
-    dispatch: Dispatch::Items(BufferKind::FaceItems),
+    wgsl: wgsl!("compute/classify_faces", "topology", "light", "outline", "invocation", "atomic_counters"),
+    writes: &[BufferKind::Lit, BufferKind::RecheckWords, BufferKind::Counters],
+    dispatch: Dispatch::ItemWords(BufferKind::FaceItems),
 };

@@ -4,10 +4,12 @@ mod build_corners;
 mod classify_faces;
 mod detect_silhouette;
 mod extrude_edges;
+mod recheck_faces;
 mod refine_faces;
 mod resolve_faces;
 mod write_draw_args;
 mod write_extrude_args;
+mod write_recheck_args;
 mod write_refine_args;
 
 use contrejour_plan::{BufferKind, Stage};
@@ -30,6 +32,8 @@ pub struct ComputeStage {
 pub enum Dispatch {
     /// One workgroup for each item of a buffer of work items.
     Items(BufferKind),
+    /// One invocation for each word of lit bits of the items.
+    ItemWords(BufferKind),
     /// One workgroup.
     Once,
     /// Arguments that an earlier stage wrote: the buffer, and which of its entries.
@@ -37,8 +41,10 @@ pub enum Dispatch {
 }
 
 /// All stages in the order in which a frame runs them.
-pub const ALL: [ComputeStage; 9] = [
+pub const ALL: [ComputeStage; 11] = [
     classify_faces::CLASSIFY_FACES,
+    write_recheck_args::WRITE_RECHECK_ARGS,
+    recheck_faces::RECHECK_FACES,
     write_refine_args::WRITE_REFINE_ARGS,
     refine_faces::REFINE_FACES,
     resolve_faces::RESOLVE_FACES,

@@ -11,6 +11,8 @@ pub enum BufferKind {
     Positions,
     /// Faces of all meshes.
     Faces,
+    /// Planes of the faces of all meshes.
+    Planes,
     /// Edges of all meshes that can be in a silhouette.
     Edges,
     /// Lists of incidence words of all meshes.
@@ -31,6 +33,10 @@ pub enum BufferKind {
     ReceiverView,
     /// Lit bits, in words.
     Lit,
+    /// Words of lit bits with faces that planes leave undecided.
+    RecheckWords,
+    /// Dispatch arguments of `recheck_faces`.
+    RecheckArgs,
     /// Undecided faces: from the front those for short integers, from the back those for full ones.
     Undecided,
     /// Dispatch arguments of `refine_faces` and `resolve_faces`.
@@ -67,9 +73,10 @@ pub struct BufferPlan {
 
 impl BufferKind {
     /// All buffers.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 24] = [
         Self::Positions,
         Self::Faces,
+        Self::Planes,
         Self::Edges,
         Self::Incidences,
         Self::VertexEdges,
@@ -80,6 +87,8 @@ impl BufferKind {
         Self::LightView,
         Self::ReceiverView,
         Self::Lit,
+        Self::RecheckWords,
+        Self::RecheckArgs,
         Self::Undecided,
         Self::RefineArgs,
         Self::Counters,
@@ -96,6 +105,7 @@ impl BufferKind {
         match self {
             Self::Positions => "positions",
             Self::Faces => "faces",
+            Self::Planes => "planes",
             Self::Edges => "edges",
             Self::Incidences => "incidences",
             Self::VertexEdges => "vertex_edges",
@@ -106,6 +116,8 @@ impl BufferKind {
             Self::LightView => "light_view",
             Self::ReceiverView => "receiver_view",
             Self::Lit => "lit",
+            Self::RecheckWords => "recheck_words",
+            Self::RecheckArgs => "recheck_args",
             Self::Undecided => "undecided",
             Self::RefineArgs => "refine_args",
             Self::Counters => "counters",
@@ -128,14 +140,16 @@ impl BufferKind {
         let bytes = match self {
             Self::Positions | Self::Incidences | Self::VertexEdges | Self::Lit | Self::OutlineSides => 4,
             Self::Faces => size_of::<layout::Face>(),
+            Self::Planes => size_of::<[f32; 4]>(),
             Self::Edges => size_of::<layout::Edge>(),
             Self::Casters => size_of::<layout::Caster>(),
             Self::FaceItems | Self::EdgeItems => size_of::<layout::WorkItem>(),
             Self::CasterLights => size_of::<layout::CasterLight>(),
             Self::LightView => size_of::<layout::LightView>(),
             Self::ReceiverView => size_of::<layout::ReceiverView>(),
+            Self::RecheckWords => size_of::<layout::RecheckWord>(),
             Self::Undecided => size_of::<layout::FaceRef>(),
-            Self::RefineArgs | Self::ExtrudeArgs => size_of::<layout::DispatchArgs>(),
+            Self::RecheckArgs | Self::RefineArgs | Self::ExtrudeArgs => size_of::<layout::DispatchArgs>(),
             Self::Counters => size_of::<layout::Counters>(),
             Self::Silhouettes => size_of::<layout::SilhouetteEdge>(),
             Self::Quads => size_of::<layout::Quad>(),

@@ -1,6 +1,6 @@
 //! Decides what a frame runs and who casts in it, and writes down what that leaves out.
 
-use super::{LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
+use super::{CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
 use crate::{DepthPrecision, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
 
 /// Texels by which a frustum is widened for filters and for rounding.
@@ -159,6 +159,13 @@ pub(super) fn casting(
         }
     }
     casting
+}
+
+/// Notes where no face has a plane.
+pub(super) fn note_planes(scene: &SceneFacts, stages: &[Stage], left_out: &mut LeftOutList) {
+    if stages.contains(&Stage::ClassifyFaces) && !scene.casters.iter().any(CasterFacts::has_planes) {
+        left_out.add(Omitted::FacePlanes, Reason::PositionsAreTheCallers);
+    }
 }
 
 fn nothing_casts(scene: &SceneFacts) -> bool {

@@ -101,6 +101,13 @@ pub enum Outputs {
     VisibilityTexture,
 }
 
+impl CasterFacts {
+    /// Whether the planes of its faces are known. Those of positions that the caller brings are not.
+    pub(super) const fn has_planes(&self) -> bool {
+        self.own_position_words == 0
+    }
+}
+
 impl MeshPiece {
     /// The whole mesh.
     pub fn whole(mesh: usize, facts: &MeshFacts) -> Self {

@@ -36,6 +36,8 @@ pub enum Omitted {
     InstanceTransforms,
     /// Stages that deform positions.
     Deformation,
+    /// The planes of faces.
+    FacePlanes,
     /// The search for blockers.
     BlockerSearch,
     /// 32-bit moments and stronger warps.
@@ -88,6 +90,8 @@ pub enum Reason {
     NothingIsInstanced,
     /// Positions come as they are drawn.
     NothingIsSkinned,
+    /// All casters bring their own positions.
+    PositionsAreTheCallers,
 }
 
 impl fmt::Display for Omitted {
@@ -101,6 +105,7 @@ impl fmt::Display for Omitted {
             Self::Topology(name) => return formatter.pad(&format!("topology of {name}")),
             Self::InstanceTransforms => "instance transforms",
             Self::Deformation => "deformation",
+            Self::FacePlanes => "planes of faces",
             Self::BlockerSearch => "search for blockers",
             Self::FullMoments => "32-bit moments",
         };
@@ -133,6 +138,7 @@ impl fmt::Display for Reason {
             Self::ReceivesOnly => "it only receives",
             Self::NothingIsInstanced => "each caster has one matrix",
             Self::NothingIsSkinned => "positions come as they are drawn",
+            Self::PositionsAreTheCallers => "all positions are the caller's: faces are tested by them",
         })
     }
 }

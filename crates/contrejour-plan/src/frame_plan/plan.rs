@@ -1,6 +1,6 @@
 //! The frame plan and how it is made.
 
-use super::decide::{LeftOutList, casting, passes, smoothies_wanted, stages};
+use super::decide::{LeftOutList, casting, note_planes, passes, smoothies_wanted, stages};
 use super::page::{Page, pages};
 use super::size_buffers::SceneSizes;
 use super::{
@@ -83,6 +83,8 @@ impl FramePlan {
         if !passes.is_empty() && settings.map_size > limit {
             return Err(PlanError::MapTooLarge { map_size: settings.map_size, limit });
         }
+
+        note_planes(scene, &stages, &mut left_out);
 
         // Decide who casts in this frame.
         let casting = casting(input, smoothies.as_ref(), &mut left_out);

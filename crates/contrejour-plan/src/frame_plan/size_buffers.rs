@@ -3,7 +3,7 @@
 use contrejour_layout::{LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK};
 
 use super::capacity::expected_outline_edges;
-use super::{BufferKind, BufferPlan, Capacity, DeviceFacts, MeshFacts, MeshPiece, PlanError, SceneFacts};
+use super::{BufferKind, BufferPlan, Capacity, CasterFacts, DeviceFacts, MeshFacts, MeshPiece, PlanError, SceneFacts};
 
 /// Entries of refine, extrude and draw arguments: each serves two stages or draws.
 const INDIRECT_ENTRIES: u64 = 2;
@@ -32,6 +32,8 @@ pub(super) struct PageSizes {
     edges: u64,
     face_blocks: u64,
     edge_blocks: u64,
+    /// No caster has planes.
+    lacks_planes: bool,
     outline_edges: u64,
     /// Room for quads and corners that earlier frames are known to need.
     floor: Capacity,
@@ -70,7 +72,8 @@ impl SceneSizes {
 impl PageSizes {
     /// Sizes of a page without pieces.
     pub fn new(scene: &SceneFacts, floor: Capacity) -> Self {
-        Self { casters: scene.casters.len() as u64, floor, ..Self::default() }
+        let lacks_planes = !scene.casters.iter().any(CasterFacts::has_planes);
+        Self { casters: scene.casters.len() as u64, lacks_planes, floor, ..Self::default() }
     }
 
     /// Makes room for a piece in the pools.
@@ -96,12 +99,15 @@ impl PageSizes {
         let capacity = Capacity::expecting(self.outline_edges, self.edges, self.floor);
         match kind {
             BufferKind::Faces => self.pool_faces,
+            BufferKind::Planes if self.lacks_planes => 0,
+            BufferKind::Planes => self.pool_faces,
             BufferKind::Edges => self.pool_edges,
             BufferKind::Incidences => self.incidence_words,
             BufferKind::VertexEdges => self.vertex_edge_words,
             BufferKind::Casters => self.casters,
             BufferKind::FaceItems => self.face_blocks,
             BufferKind::EdgeItems => self.edge_blocks,
+            BufferKind::RecheckWords => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
             BufferKind::Undecided => self.faces,
             BufferKind::Silhouettes => self.edges,
             BufferKind::Quads => capacity.quads.into(),

@@ -7,8 +7,12 @@ use super::BufferKind::{self, *};
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Stage {
-    /// One lit bit for each face, by floats where their bound allows; the others are listed.
+    /// One lit bit for each face, by its stored plane where the bound allows; the others are listed by words.
     ClassifyFaces,
+    /// From words with faces to recheck to the dispatch over those faces.
+    WriteRecheckArgs,
+    /// Faces that planes leave undecided, by positions where the bound allows; the others are listed.
+    RecheckFaces,
     /// From undecided faces to the dispatches of the two exact tiers.
     WriteRefineArgs,
     /// Undecided faces by short integers.
@@ -29,8 +33,10 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which a frame runs them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::ClassifyFaces,
+        Self::WriteRecheckArgs,
+        Self::RecheckFaces,
         Self::WriteRefineArgs,
         Self::RefineFaces,
         Self::ResolveFaces,
@@ -42,12 +48,14 @@ impl Stage {
     ];
 
     /// The stages that end with the list of silhouette edges; the others extrude them.
-    pub const DETECTION: &[Self] = Self::ALL.split_at(5).0;
+    pub const DETECTION: &[Self] = Self::ALL.split_at(7).0;
 
     /// Its name: shader file, entry point, CPU twin and test.
     pub const fn name(self) -> &'static str {
         match self {
             Self::ClassifyFaces => "classify_faces",
+            Self::WriteRecheckArgs => "write_recheck_args",
+            Self::RecheckFaces => "recheck_faces",
             Self::WriteRefineArgs => "write_refine_args",
             Self::RefineFaces => "refine_faces",
             Self::ResolveFaces => "resolve_faces",
@@ -62,8 +70,10 @@ impl Stage {
     /// The buffers that its shader binds, in the order of their bindings; the first is a uniform.
     pub const fn buffers(self) -> &'static [BufferKind] {
         match self {
-            Self::ClassifyFaces => {
-                &[LightView, FaceItems, Casters, CasterLights, Faces, Positions, Lit, Undecided, Counters]
+            Self::ClassifyFaces => &[LightView, FaceItems, Casters, CasterLights, Planes, Lit, RecheckWords, Counters],
+            Self::WriteRecheckArgs => &[LightView, Counters, RecheckArgs],
+            Self::RecheckFaces => {
+                &[LightView, RecheckWords, Casters, CasterLights, Faces, Positions, Lit, Undecided, Counters]
             }
             Self::WriteRefineArgs => &[LightView, Counters, RefineArgs],
             Self::RefineFaces | Self::ResolveFaces => {

@@ -140,7 +140,7 @@ fn smoothies_run_everything_in_two_passes() {
     let plan = Case::new(cube_scene()).good();
     assert_eq!(plan.stages, Stage::ALL);
     assert_eq!(plan.passes, [Pass::ShadowMap, Pass::SmoothieDepth, Pass::SmoothieAlpha]);
-    assert_eq!(plan.pipelines.len(), 9 + 1 + 2 + 2);
+    assert_eq!(plan.pipelines.len(), 11 + 1 + 2 + 2);
     assert_eq!(plan.reason(&Omitted::Pass(Pass::SmoothieBuffer)), Some(Reason::DeviceBlendsNoFloats));
     assert_eq!(plan.reason(&Omitted::Topology("floor".to_owned())), Some(Reason::ReceivesOnly));
     assert_eq!(plan.reason(&Omitted::InstanceTransforms), Some(Reason::NothingIsInstanced));
@@ -154,13 +154,16 @@ fn sizes_follow_the_counts() {
     let plan = case.good();
     assert_eq!(bytes(&plan, BufferKind::Positions), Some(8 * 12), "twins share the mesh");
     assert_eq!(bytes(&plan, BufferKind::Faces), Some(12 * 12));
+    assert_eq!(bytes(&plan, BufferKind::Planes), Some(12 * 16));
     assert_eq!(bytes(&plan, BufferKind::Edges), Some(12 * 16));
     assert_eq!(bytes(&plan, BufferKind::Incidences), Some(4), "never empty");
     assert_eq!(bytes(&plan, BufferKind::VertexEdges), Some((9 + 2 * 24) * 4));
     assert_eq!(bytes(&plan, BufferKind::Casters), Some(2 * 48));
-    assert_eq!(bytes(&plan, BufferKind::FaceItems), Some(2 * 8));
-    assert_eq!(bytes(&plan, BufferKind::EdgeItems), Some(2 * 8));
+    assert_eq!(bytes(&plan, BufferKind::FaceItems), Some(2 * 12));
+    assert_eq!(bytes(&plan, BufferKind::EdgeItems), Some(2 * 12));
     assert_eq!(bytes(&plan, BufferKind::Lit), Some(2 * 2 * 4));
+    assert_eq!(bytes(&plan, BufferKind::RecheckWords), Some(2 * 2 * 12));
+    assert_eq!(bytes(&plan, BufferKind::RecheckArgs), Some(12));
     assert_eq!(bytes(&plan, BufferKind::OutlineSides), Some(2 * 4 * 4));
     assert_eq!(bytes(&plan, BufferKind::Undecided), Some(24 * 8));
     assert_eq!(bytes(&plan, BufferKind::Silhouettes), Some(24 * 16));
@@ -180,6 +183,11 @@ fn callers_positions_come_behind_the_meshes() {
     let plan = case.good();
     assert_eq!(bytes(&plan, BufferKind::Positions), Some((24 + 31) * 4));
     assert_eq!(plan.casting, [0], "where it is only the GPU knows");
+    assert_eq!(bytes(&plan, BufferKind::Planes), Some(16), "never empty");
+    assert_eq!(plan.reason(&Omitted::FacePlanes), Some(Reason::PositionsAreTheCallers));
+    case.scene.casters.push(caster_at("rigid", 0, DVec3::ZERO));
+    let plan = case.good();
+    assert_eq!((bytes(&plan, BufferKind::Planes), plan.reason(&Omitted::FacePlanes)), (Some(12 * 16), None));
 }
 
 #[test]

@@ -1,0 +1,44 @@
+//! Turns the number of words with faces to recheck into a dispatch.
+
+use contrejour_layout::{Counters, DispatchArgs, FACES_PER_WORD, LIT_WORDS_PER_BLOCK, LightView};
+
+use crate::group_args::groups_for;
+
+/// The bindings of `write_recheck_args`.
+pub struct WriteRecheckArgs<'a> {
+    /// How many work items there are, each with so many words.
+    pub view: &'a LightView,
+    /// How many words have faces to recheck.
+    pub counters: &'a Counters,
+    /// The dispatch of `recheck_faces`.
+    pub recheck_args: &'a mut [DispatchArgs],
+}
+
+impl WriteRecheckArgs<'_> {
+    /// Does what the dispatch does.
+    pub fn run(self) {
+        let words = self.counters.recheck_words.min(self.view.face_item_count * LIT_WORDS_PER_BLOCK);
+        self.recheck_args[0] = groups_for(words * FACES_PER_WORD);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn args(words: u32) -> DispatchArgs {
+        let view = LightView { face_item_count: 1 << 20, ..Default::default() };
+        let counters = Counters { recheck_words: words, ..Default::default() };
+        let mut recheck_args = [DispatchArgs::default()];
+        WriteRecheckArgs { view: &view, counters: &counters, recheck_args: &mut recheck_args }.run();
+        recheck_args[0]
+    }
+
+    #[test]
+    fn a_workgroup_has_two_words() {
+        assert_eq!(args(0), DispatchArgs { x: 0, y: 0, z: 1 });
+        assert_eq!(args(2), DispatchArgs { x: 1, y: 1, z: 1 });
+        assert_eq!(args(3), DispatchArgs { x: 2, y: 1, z: 1 });
+        assert_eq!(args(2 * 65_535 + 1), DispatchArgs { x: 65_535, y: 2, z: 1 });
+    }
+}
