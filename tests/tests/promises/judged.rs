@@ -3,8 +3,9 @@
 
 use contrejour_gpu::ShadowOptions;
 use contrejour_plan::{FramePlan, Omitted, ShadowSettings, Technique};
-use contrejour_render::{ComposeError, Gpu, Judge, LocalSpace, Receivers, Renderer, frame_plan, rocked};
+use contrejour_render::{ComposeError, Judge, LocalSpace, Receivers, Renderer, frame_plan, rocked};
 use contrejour_scene::Scene;
+use contrejour_tests::gpu::{Equipment, render_gpu};
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::image_compare::{ImageTolerance, compare_images};
 use contrejour_tests::ray_cast::{RayCaster, check_receivers};
@@ -32,6 +33,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("judged::composing_gives_the_picture", |_| composing_gives_the_picture()),
         gpu_trial("judged::what_cannot_be_composed_is_told", |_| what_cannot_be_composed_is_told()),
         gpu_trial("judged::a_rocked_light_does_all_the_work", |_| a_rocked_light_does_all_the_work()),
+        gpu_trial("judged::equipment_hardly_shows", |_| equipment_hardly_shows()),
         gpu_trial("judged::the_plan_is_known_before", |_| the_plan_is_known_before()),
         gpu_trial("judged::contestants_do_not_touch_each_other", |_| contestants_do_not_touch_each_other()),
     ]
@@ -48,7 +50,11 @@ fn scene(name: &str) -> Result<Scene, String> {
 }
 
 fn judge(scene: &Scene) -> Result<Judge, String> {
-    Judge::new(Gpu::open().map_err(text)?, scene).map_err(text)
+    judge_on(Equipment::Baseline, scene)
+}
+
+fn judge_on(equipment: Equipment, scene: &Scene) -> Result<Judge, String> {
+    Judge::new(render_gpu(equipment)?, scene).map_err(text)
 }
 
 fn receivers(scene: &Scene) -> Result<Receivers, String> {
@@ -127,7 +133,7 @@ fn planted_receivers_are_found() -> Outcome {
 
 /// The renderer of pictures with one sample a pixel.
 fn one_sample_renderer(scene: &Scene, settings: &ShadowSettings) -> Result<Renderer, String> {
-    let mut gpu = Gpu::open().map_err(text)?;
+    let mut gpu = render_gpu(Equipment::Baseline)?;
     gpu.sample_count = 1;
     let options = ShadowOptions { settings: *settings, ..ShadowOptions::default() };
     let mut renderer = Renderer::new(gpu, scene, &options).map_err(text)?;
@@ -242,9 +248,10 @@ fn what_cannot_be_composed_is_told() -> Outcome {
 }
 
 fn a_rocked_light_does_all_the_work() -> Outcome {
-    for name in SCENES {
+    let on_baseline = SCENES.map(|name| (name, Equipment::Baseline));
+    for (name, equipment) in on_baseline.into_iter().chain([("boxes", Equipment::Best)]) {
         let scene = scene(name)?;
-        let judge = judge(&scene)?;
+        let judge = judge_on(equipment, &scene)?;
         for settings in techniques(&scene) {
             let mut contestant = judge.contestant(&settings).map_err(text)?;
             let what = format!("{name}, {}", settings.technique);
@@ -303,6 +310,29 @@ fn contestants_do_not_touch_each_other() -> Outcome {
     for (index, visibility) in visibilities.iter().enumerate() {
         if visibilities[..index].contains(visibility) {
             return Err(format!("technique {index} has the visibility of another one"));
+        }
+    }
+    Ok(())
+}
+
+/// What the best equipment saves in time, and in rounding of moments, it does not change otherwise.
+fn equipment_hardly_shows() -> Outcome {
+    for name in SCENES {
+        let scene = scene(name)?;
+        let [baseline, best] = [judge_on(Equipment::Baseline, &scene)?, judge_on(Equipment::Best, &scene)?];
+        for settings in techniques(&scene) {
+            let visibility = |judge: &Judge, settings: &ShadowSettings| -> Result<Vec<f32>, String> {
+                let mut contestant = judge.contestant(settings).map_err(text)?;
+                contestant.draw(&scene.light).map_err(text)?;
+                contestant.visibility().map_err(text)
+            };
+            let rmse = |one: &[f32], other: &[f32]| {
+                let squares = one.iter().zip(other).map(|(one, other)| f64::from(one - other).powi(2));
+                (squares.sum::<f64>() / one.len() as f64).sqrt()
+            };
+            let found = visibility(&baseline, &settings)?;
+            let error = rmse(&found, &visibility(&best, &settings)?);
+            println!("{name}, {}: {error:.6}", settings.technique);
         }
     }
     Ok(())
