@@ -321,7 +321,7 @@ fn contestants_do_not_touch_each_other() -> Outcome {
 fn most_of_equipment(technique: &Technique) -> f64 {
     match technique {
         Technique::Variance(_) => 0.01,
-        Technique::Smoothies(_) => 2e-5,
+        Technique::Smoothies(_) => 1e-4,
         _ => 0.0,
     }
 }
