@@ -127,8 +127,12 @@ fn remapped_alpha(vertex: SmoothieVertex) -> f32 {
     if remap_alpha == 0u {
         return alpha;
     }
-    // The paper's alpha / (1 - b / r), for a perspective and for an orthographic view alike.
+    // The paper's alpha / (1 - b / r), for a perspective and for an orthographic view alike. A device may take the gap
+    // for nothing where it is subnormal; then the two touch.
     let q = blocker_q(vertex);
-    let q_receiver = q_of_depth(receiver_depth(vertex));
-    return saturate(alpha * (view.q_max - q) / (q_receiver - q));
+    let gap = q_of_depth(receiver_depth(vertex)) - q;
+    if gap > 0.0 {
+        return saturate(alpha * (view.q_max - q) / gap);
+    }
+    return 1.0;
 }

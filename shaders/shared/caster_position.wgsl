@@ -2,10 +2,20 @@
 
 fn scaled_position(caster: Caster, vertex: u32) -> vec3f {
     let word = caster.first_position_word + vertex * caster.position_stride_words;
-    let position = vec3f(
-        bitcast<f32>(positions[word]),
-        bitcast<f32>(positions[word + 1u]),
-        bitcast<f32>(positions[word + 2u]),
-    );
-    return (position - caster.position_origin) * caster.position_scale;
+    let bits = vec3u(positions[word], positions[word + 1u], positions[word + 2u]);
+    return scaled(bits, caster.position_scale) - scaled(bitcast<vec3u>(caster.position_origin), caster.position_scale);
+}
+
+fn scaled(bits: vec3u, power: f32) -> vec3f {
+    return vec3f(scaled_number(bits.x, power), scaled_number(bits.y, power), scaled_number(bits.z, power));
+}
+
+// A number times a power of two. Subnormal ones are scaled as whole numbers: a device may take them for zero, and a tiny
+// mesh has no others.
+fn scaled_number(bits: u32, power: f32) -> f32 {
+    if (bits & 0x7f800000u) != 0u {
+        return bitcast<f32>(bits) * power;
+    }
+    let size = (f32(bits & 0x7fffffu) * 0x1p-23f) * (0x1p-126f * power);
+    return select(size, -size, (bits >> 31u) == 1u);
 }

@@ -1,5 +1,6 @@
 //! One device for all tests of a binary.
 
+use std::env;
 use std::fmt::Display;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -7,6 +8,9 @@ use wgpu::util::DeviceExt;
 
 /// Set to 1, a missing adapter fails the tests that need one. Otherwise they are reported as ignored.
 pub const REQUIRE_GPU: &str = "CONTREJOUR_REQUIRE_GPU";
+
+/// Set to a part of an adapter's name, every other adapter fails the tests that need one.
+pub const ADAPTER: &str = "CONTREJOUR_ADAPTER";
 
 /// A device with its queue.
 #[derive(Debug)]
@@ -49,6 +53,35 @@ pub fn gpu_alone() -> Result<Gpu, String> {
     open(wgpu::Features::empty())
 }
 
+/// What the renderer's device is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Equipment {
+    /// What the command line asks for: optional features and larger limits, where the adapter has them.
+    Best,
+    /// WebGPU's default limits and no optional feature.
+    Baseline,
+}
+
+/// A device of the renderer.
+///
+/// # Errors
+///
+/// Why there is none, in one line.
+pub fn render_gpu(equipment: Equipment) -> Result<contrejour_render::Gpu, String> {
+    let opened = match equipment {
+        Equipment::Best => contrejour_render::Gpu::open(),
+        Equipment::Baseline => contrejour_render::Gpu::open_with_defaults(),
+    };
+    let gpu = opened.map_err(text)?;
+    check_adapter(&gpu.adapter_info.name, env::var(ADAPTER).ok().as_deref())?;
+    Ok(gpu)
+}
+
+/// Whether tests that need a device fail without it.
+pub fn is_required() -> bool {
+    env::var(REQUIRE_GPU).is_ok_and(|value| value == "1") || env::var_os(ADAPTER).is_some()
+}
+
 /// A device that no other test uses, with textures as large as its adapter allows and samplers that weigh 32-bit floats.
 ///
 /// # Errors
@@ -75,13 +108,11 @@ fn open(features: wgpu::Features) -> Result<Gpu, String> {
 }
 
 fn open_with(features: wgpu::Features, limits: impl FnOnce(&wgpu::Limits) -> wgpu::Limits) -> Result<Gpu, String> {
-    fn text(error: impl Display) -> String {
-        error.to_string().replace('\n', " ")
-    }
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
         .map_err(|error| format!("no adapter: {}", text(error)))?;
     let info = adapter.get_info();
+    check_adapter(&info.name, env::var(ADAPTER).ok().as_deref())?;
     let descriptor = wgpu::DeviceDescriptor {
         label: Some("tests"),
         required_features: features,
@@ -91,6 +122,17 @@ fn open_with(features: wgpu::Features, limits: impl FnOnce(&wgpu::Limits) -> wgp
     let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
         .map_err(|error| format!("no device on {}: {}", info.name, text(error)))?;
     Ok(Gpu { device, queue, adapter: format!("{} ({})", info.name, info.backend), waiting: Mutex::new(()) })
+}
+
+fn text(error: impl Display) -> String {
+    error.to_string().replace('\n', " ")
+}
+
+fn check_adapter(name: &str, wanted: Option<&str>) -> Result<(), String> {
+    match wanted {
+        Some(wanted) if !name.contains(wanted) => Err(format!("no {wanted} but {name}; see VK_DRIVER_FILES")),
+        _ => Ok(()),
+    }
 }
 
 impl Gpu {
@@ -167,5 +209,19 @@ impl Gpu {
         readable.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("a fresh buffer can be mapped"));
         self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
         readable.get_mapped_range(..).expect("the buffer is mapped").to_vec()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_wanted_adapter_passes() {
+        let name = "SwiftShader Device (Subzero)";
+        assert_eq!(check_adapter(name, None), Ok(()));
+        assert_eq!(check_adapter(name, Some("SwiftShader")), Ok(()));
+        let refused = check_adapter("llvmpipe (LLVM 15.0.6, 256 bits)", Some("SwiftShader"));
+        assert!(refused.is_err_and(|text| text.contains("no SwiftShader but llvmpipe")));
     }
 }

@@ -1,12 +1,11 @@
 //! Trials for tests that need the GPU.
 
-use std::env;
 use std::path::Path;
 use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 
-use crate::gpu::{Gpu, REQUIRE_GPU, gpu};
+use crate::gpu::{Gpu, gpu, is_required};
 use crate::meshes::shared_folder;
 
 /// What a test returns: the first difference, in words.
@@ -33,7 +32,7 @@ pub fn cpu_trial(name: impl Into<String>, test: impl FnOnce() -> Outcome + Send 
 fn on_gpu(test: impl FnOnce(&'static Gpu) -> Outcome) -> Result<Completion, Failed> {
     match gpu() {
         Ok(gpu) => test(gpu).map(|()| Completion::Completed).map_err(Failed::from),
-        Err(reason) => without_gpu(reason, env::var(REQUIRE_GPU).is_ok_and(|value| value == "1")),
+        Err(reason) => without_gpu(reason, is_required()),
     }
 }
 
@@ -46,7 +45,7 @@ fn on_folder(
 
 fn without_gpu(reason: &str, required: bool) -> Result<Completion, Failed> {
     if required {
-        return Err(Failed::from(format!("{REQUIRE_GPU}=1, and there is {reason}")));
+        return Err(Failed::from(format!("a device is required, and there is {reason}")));
     }
     Ok(Completion::ignored_with(reason))
 }

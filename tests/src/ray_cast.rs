@@ -1,5 +1,7 @@
 //! Rays from the eye through each pixel's centre, in 64-bit floats and against every face: what receivers are held to.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use contrejour_render::{LocalSpace, Receiver, Receivers};
 use contrejour_scene::Scene;
 use glam::{DMat4, DVec2, DVec3, Vec4Swizzles};
@@ -8,15 +10,11 @@ use glam::{DMat4, DVec2, DVec3, Vec4Swizzles};
 /// it looks at: 16 steps of an `f32` near 1.
 pub const PLANE_DISTANCE: f64 = 2e-6;
 
-/// How far a receiver may be from its pixel's centre, in pixels.
-pub const PIXELS: f64 = 0.01;
+/// How far a receiver may be from its pixel's centre, in pixels, were corners not rounded before they are drawn.
+const PIXELS: f64 = 0.007;
 
 /// How far a receiver's normal, which is found from differences between pixels, may be from its face's.
 pub const NORMAL_DISTANCE: f64 = 0.02;
-
-/// Corners are rounded to 1/256 of a pixel or finer before they are drawn: as near to a face's edge, in pixels, it may show
-/// or not.
-const CORNER_ROUNDING: f64 = 1.0 / 128.0;
 
 /// Faces that are as near to each other along a ray, relative to the camera's farthest depth, may hide each other.
 const DEPTH_ROUNDING: f64 = 1e-6;
@@ -29,6 +27,9 @@ pub struct RayCaster {
     near_over_far: f64,
     eye_clip_from_local: DMat4,
     size: [u32; 2],
+    /// Corners are rounded to this part of a pixel before they are drawn. As near to a face's edge it may show or not, and
+    /// along both axes by half of it all points of the face may be off.
+    sub_pixel: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -66,9 +67,15 @@ pub struct ReceiverErrors {
     pub normal: f64,
 }
 
+/// The part of a pixel to which an adapter rounds corners, which wgpu does not tell: Vulkan allows a 16th, and SwiftShader
+/// takes it; all others have a 256th.
+fn sub_pixel(adapter: &str) -> f64 {
+    if adapter.contains("SwiftShader") { 1.0 / 16.0 } else { 1.0 / 256.0 }
+}
+
 impl RayCaster {
-    /// Takes the faces of a scene.
-    pub fn new(scene: &Scene, local: &LocalSpace) -> Self {
+    /// Takes the faces of a scene that an adapter of a name draws.
+    pub fn new(scene: &Scene, local: &LocalSpace, adapter: &str) -> Self {
         let camera = local.camera(&scene.camera);
         let mut caster = Self {
             meshes: Vec::new(),
@@ -76,6 +83,7 @@ impl RayCaster {
             near_over_far: camera.near / camera.far,
             eye_clip_from_local: camera.clip_from_world(scene.aspect()),
             size: scene.size,
+            sub_pixel: sub_pixel(adapter),
         };
         for placed in &scene.meshes {
             let local_from_object = local.local_from_world() * placed.world_from_object;
@@ -110,12 +118,12 @@ impl RayCaster {
         for (mesh, faces) in self.meshes.iter().map(|mesh| &mesh.faces).enumerate() {
             for (face, shape) in faces.iter().enumerate() {
                 let inside = shape.inside(pixel, self.eye, along);
-                if inside > CORNER_ROUNDING {
+                if inside > 2.0 * self.sub_pixel {
                     let depth = shape.meet(self.eye, along).depth;
                     if depth > self.near_over_far && depth < 1.0 {
                         hits.push(Hit { mesh, face, depth, is_sure: true });
                     }
-                } else if inside >= -CORNER_ROUNDING {
+                } else if inside >= -2.0 * self.sub_pixel {
                     // Next to a face its plane may be anywhere, so its nearest corner counts.
                     hits.push(Hit { mesh, face, depth: shape.nearest(self.eye, along), is_sure: false });
                 }
@@ -236,7 +244,7 @@ fn check_point(
     let length_error = f64::from((receiver.normal.length() - 1.0).abs());
     // Positive, so that NaN is found.
     if found.plane <= PLANE_DISTANCE
-        && found.pixels <= PIXELS
+        && found.pixels <= PIXELS + caster.sub_pixel * FRAC_1_SQRT_2
         && found.normal <= NORMAL_DISTANCE
         && length_error <= 1e-5
     {

@@ -1,4 +1,5 @@
-//! Positions of a caster, brought near 1 by its origin and its power of two. Never used for facing.
+//! Positions of a caster, brought near 1 by its origin and its power of two. Never used for facing. Subnormal numbers need
+//! no care here: CPUs keep them.
 
 use contrejour_layout::Caster;
 use glam::Vec3;

@@ -31,7 +31,7 @@ pub enum LightKind {
         radius: f64,
         /// Nearest depth that casts, world units. Range: more than 0.
         near: f64,
-        /// Farthest depth that casts and receives, world units. Range: more than `near`.
+        /// Farthest depth that casts and receives, world units. Range: more than `near`, up to 8.5e37.
         far: f64,
     },
     /// Parallel light, like a sun.
@@ -99,6 +99,12 @@ pub enum LightError {
         /// Angular radius.
         radians: f64,
     },
+    /// One over the farthest depth is no normal 32-bit number.
+    #[error("the spot's far is {far}: give at most 8.5e37, since shaders reckon with one over depth")]
+    TooFar {
+        /// Farthest depth.
+        far: f64,
+    },
     /// There is no depth between near and far.
     #[error("near is {near} and far is {far}: give a far that is clearly more than near")]
     DepthRange {
@@ -141,6 +147,10 @@ impl Light {
                 not_negative("radius over the tangent of half the cone", radius / (cone_angle / 2.0).tan())?;
                 positive("near", near)?;
                 positive("far", far)?;
+                // Devices may take smaller numbers for zero, and one over that is infinite.
+                if !is_normal(far.recip()) {
+                    return Err(LightError::TooFar { far });
+                }
                 // Compared as the shaders get them, so that `near < far` holds there too.
                 if (near as f32) < (far as f32) { Ok(()) } else { Err(LightError::DepthRange { near, far }) }
             }
@@ -227,6 +237,8 @@ mod tests {
         assert_eq!(spot(|n| n[2] = 1e-50), Err(LightError::NotPositive { field: "near", value: 1e-50 }));
         assert_eq!(spot(|n| n[3] = 0.5), Err(LightError::DepthRange { near: 0.5, far: 0.5 }));
         assert_eq!(spot(|n| n[3] = 0.5 + 1e-12), Err(LightError::DepthRange { near: 0.5, far: 0.5 + 1e-12 }));
+        assert_eq!(spot(|n| n[3] = 8.5e37), Ok(()));
+        assert_eq!(spot(|n| n[3] = 1e38), Err(LightError::TooFar { far: 1e38 }));
         assert_eq!(spot(|n| n[3] = 1e40), Err(LightError::NotFinite { field: "far", value: 1e40 }));
         assert_eq!(sun(DVec3::ZERO, |_| ()), Err(LightError::NoDirection));
         assert!(matches!(sun(DVec3::new(0.0, f64::INFINITY, 0.0), |_| ()), Err(LightError::NotFinite { .. })));

@@ -71,12 +71,17 @@ pub(crate) fn passing_depth(view: &wgpu::TextureView) -> wgpu::RenderPassDepthSt
 
 impl Targets {
     pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
+        Self::of_format(gpu, size, COLOR_FORMAT)
+    }
+
+    /// Of another format than pictures.
+    pub fn of_format(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
         let texture =
             |label, format, sample_count, usage| target_texture(gpu, label, size, sample_count, format, usage);
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let none = wgpu::TextureUsages::empty();
-        let picture = texture("picture", COLOR_FORMAT, 1, wgpu::TextureUsages::COPY_SRC);
-        let samples = (gpu.sample_count > 1).then(|| texture("picture samples", COLOR_FORMAT, gpu.sample_count, none));
+        let picture = texture("picture", format, 1, wgpu::TextureUsages::COPY_SRC);
+        let samples = (gpu.sample_count > 1).then(|| texture("picture samples", format, gpu.sample_count, none));
         let depth = texture("picture depth", DEPTH_FORMAT, gpu.sample_count, none);
         Self {
             picture_view: view(&picture),

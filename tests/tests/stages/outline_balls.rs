@@ -30,11 +30,11 @@ pub enum Image {
     Either,
 }
 
-/// A vertex, near 1 as the stages bring it there; origins and powers of two are exact.
+/// A vertex, near 1 as the stages bring it there; origins and powers of two are exact, for subnormal numbers too.
 fn scaled(caster: &Caster, positions: &[u32], vertex: u32) -> [Ball; 3] {
     let word = (caster.first_position_word + vertex * caster.position_stride_words) as usize;
     let from_origin = |axis: usize| f32::from_bits(positions[word + axis]) - caster.position_origin[axis];
-    [0, 1, 2].map(|axis| Ball::exact(from_origin(axis)) * Ball::exact(caster.position_scale))
+    [0, 1, 2].map(|axis| Ball::exact(from_origin(axis) * caster.position_scale))
 }
 
 fn transformed(light: &CasterLight, [x, y, z]: [Ball; 3], w: f32) -> Clip {

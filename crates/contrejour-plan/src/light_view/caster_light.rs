@@ -1,22 +1,23 @@
 //! What one caster needs to know of one light view.
 
 use contrejour_layout::CasterLight;
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, Mat4};
 
 use super::power_of_two::exponent_of;
 use super::{View, object_light};
 
 /// The light and the matrix of `view` for a caster whose positions are brought near 1 before the matrix.
 ///
-/// `casts` is 0 where the caster's matrix is singular. Where `f32` can't hold its clip space, the matrix is zero: its
-/// silhouette is found, its outline projects to a point.
+/// `casts` is 0 where the caster's matrix is singular. Where `f32` can't hold its clip space, because it is too large or
+/// so small that devices may flush it to zero, the matrix is zero: its silhouette is found, its outline projects to a
+/// point.
 pub fn caster_light(view: &View, world_from_object: &DMat4, near_one: &NearOne) -> CasterLight {
     let light = object_light(view.light_world, world_from_object);
     // Origin and scale are undone before the one rounding to f32.
     let object_from_scaled = DMat4::from_translation(DVec3::from(near_one.origin.map(f64::from)))
         * DMat4::from_scale(DVec3::splat(f64::from(near_one.scale).recip()));
     let light_clip_from_object = (view.light_clip_from_world * *world_from_object * object_from_scaled).as_mat4();
-    let has_image = !light.singular && light_clip_from_object.is_finite();
+    let has_image = !light.singular && is_held(&light_clip_from_object);
     CasterLight {
         light_object: light.bits,
         light_clip_from_object: if has_image { light_clip_from_object.to_cols_array() } else { [0.0; 16] },
@@ -25,6 +26,16 @@ pub fn caster_light(view: &View, world_from_object: &DMat4, near_one: &NearOne) 
         unused_0: 0,
         unused_1: 0,
     }
+}
+
+/// Whether a clip space is finite, and its image so far above the smallest normal number, 2^-126, that some 16 bits of it
+/// are left on devices that flush what is below.
+fn is_held(light_clip_from_object: &Mat4) -> bool {
+    const LEAST_IMAGE: f32 = f32::MIN_POSITIVE * 65_536.0;
+    let [x, y, z, _] = light_clip_from_object.to_cols_array_2d();
+    let largest =
+        [x, y, z].iter().flat_map(|axis| &axis[..2]).fold(0.0, |largest: f32, entry| largest.max(entry.abs()));
+    light_clip_from_object.is_finite() && largest >= LEAST_IMAGE
 }
 
 /// How positions are brought near 1 before they are projected: `(position - origin) * scale`, which is exact but for
@@ -66,7 +77,7 @@ impl NearOne {
 mod tests {
     use super::*;
     use crate::{Light, LightKind, views};
-    use glam::{DQuat, DVec4, Mat4, Vec3, Vec4};
+    use glam::{DQuat, DVec4, Vec3, Vec4};
 
     fn view() -> View {
         let kind = LightKind::Spot {
@@ -109,6 +120,14 @@ mod tests {
         let record = caster_light(&view(), &DMat4::from_scale(DVec3::splat(1e30)), &small);
         assert_eq!((record.casts, record.light_clip_from_object), (1, [0.0; 16]));
         assert_eq!(f32::from_bits(record.light_object[3]), 1.0);
+    }
+
+    #[test]
+    fn a_clip_space_that_devices_may_flush_has_no_image() {
+        for (size, has_image) in [(1e-30, true), (1e-36, false), (1e-44, false)] {
+            let record = caster_light(&view(), &DMat4::from_scale(DVec3::splat(size)), &NearOne::IDENTITY);
+            assert_eq!(record.light_clip_from_object != [0.0; 16], has_image, "{size}");
+        }
     }
 
     #[test]

@@ -1,16 +1,13 @@
 //! The pass that shades a picture from a visibility that was found before.
 
-use image::RgbaImage;
-
 use super::error::ComposeError;
 use super::visibility_pass::VISIBILITY_FORMAT;
 use crate::Gpu;
 use crate::frame_uniforms::{FrameBinding, FrameUniforms};
-use crate::readback::{ReadError, read_picture};
 use crate::scene_meshes::SceneMeshes;
 use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, scene_pipeline};
 use crate::shaders::COMPOSE;
-use crate::targets::{COLOR_FORMAT, Targets};
+use crate::targets::Targets;
 
 const VISIBILITY_GROUP: u32 = 2;
 
@@ -24,7 +21,8 @@ pub(super) struct ComposePass {
 }
 
 impl ComposePass {
-    pub fn new(gpu: &Gpu, size: [u32; 2], surface_layout: &wgpu::BindGroupLayout) -> Self {
+    /// Draws into targets of a size and a format.
+    pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, surface_layout: &wgpu::BindGroupLayout) -> Self {
         let device = &gpu.device;
         let frame = FrameBinding::new(gpu);
         let visibility = device.create_texture(&wgpu::TextureDescriptor {
@@ -66,7 +64,7 @@ impl ComposePass {
             immediate_size: 0,
         });
         let entry_points = EntryPoints { vertex: "vertex_shade", fragment: "fragment_compose" };
-        let pipeline = scene_pipeline(gpu, &layout, &module, entry_points, &[COLOR_FORMAT]);
+        let pipeline = scene_pipeline(gpu, &layout, &module, entry_points, &[format]);
         Self { pipeline, frame, visibility, visibility_bind_group }
     }
 
@@ -95,14 +93,8 @@ impl ComposePass {
         Ok(())
     }
 
-    /// Draws the picture and reads it back; waits for the device.
-    pub fn draw(
-        &self,
-        gpu: &Gpu,
-        targets: &Targets,
-        background: wgpu::Color,
-        meshes: &SceneMeshes,
-    ) -> Result<RgbaImage, ReadError> {
+    /// Draws the picture.
+    pub fn draw(&self, gpu: &Gpu, targets: &Targets, background: wgpu::Color, meshes: &SceneMeshes) {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let mut pass = targets.begin_pass(&mut encoder, background, None);
@@ -112,6 +104,5 @@ impl ComposePass {
             meshes.draw(&mut pass, SURFACE_GROUP);
         }
         gpu.queue.submit([encoder.finish()]);
-        read_picture(gpu, &targets.picture)
     }
 }

@@ -21,9 +21,9 @@ use image::RgbaImage;
 
 use crate::casters::Casters;
 use crate::frame_uniforms::FrameUniforms;
-use crate::readback::ReadError;
+use crate::readback::{ReadError, read_picture, read_texture};
 use crate::scene_meshes::SceneMeshes;
-use crate::targets::{Targets, check_size};
+use crate::targets::{COLOR_FORMAT, Targets, check_size};
 use crate::{Gpu, LocalSpace};
 
 use compose_pass::ComposePass;
@@ -36,6 +36,9 @@ pub use faces::TooManyFaces;
 pub use receivers::{Receiver, Receivers};
 pub use rocking::rocked;
 
+/// Format of pictures before they are rounded.
+const FLOAT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
 /// A scene on the device, to judge shadow techniques by.
 ///
 /// Pictures have one sample a pixel, so that each pixel stands for one point of one face.
@@ -44,6 +47,7 @@ pub struct Judge {
     scene: Arc<JudgedScene>,
     first_faces: Vec<u32>,
     meshes: SceneMeshes,
+    surface_layout: wgpu::BindGroupLayout,
     compose: ComposePass,
     targets: Targets,
     uniforms: FrameUniforms,
@@ -78,7 +82,8 @@ impl Judge {
         let meshes = SceneMeshes::new(&gpu, &with_separate_faces(scene), &local, pass.surface_layout())?;
         let uniforms = FrameUniforms::new(scene, &local.camera(&scene.camera));
         let receivers = pass.draw(&gpu, scene.size, &meshes, &uniforms);
-        let compose = ComposePass::new(&gpu, scene.size, pass.surface_layout());
+        let surface_layout = pass.surface_layout().clone();
+        let compose = ComposePass::new(&gpu, scene.size, COLOR_FORMAT, &surface_layout);
         let targets = Targets::new(&gpu, scene.size);
         gpu.check()?;
         let [red, green, blue] = scene.background.map(f64::from);
@@ -86,6 +91,7 @@ impl Judge {
             scene: Arc::new(JudgedScene { gpu, local, casters, receivers, light: scene.light }),
             first_faces,
             meshes,
+            surface_layout,
             compose,
             targets,
             uniforms,
@@ -128,9 +134,34 @@ impl Judge {
     ///
     /// [`ComposeError`] when the values are not one for each pixel or not finite, or the device fails.
     pub fn compose(&self, light: &Light, visibility: &[f32]) -> Result<RgbaImage, ComposeError> {
-        let Self { scene, compose, targets, meshes, .. } = self;
-        let uniforms = self.uniforms.with_light(&scene.local.light(light));
-        compose.upload(&scene.gpu, &uniforms, visibility)?;
-        Ok(compose.draw(&scene.gpu, targets, self.background, meshes)?)
+        self.draw(&self.compose, &self.targets, light, visibility)?;
+        Ok(read_picture(&self.scene.gpu, &self.targets.picture)?)
+    }
+
+    /// The same before it is rounded to 8 bits, as linear red, green, blue and opacity: a number that is none would not
+    /// show in a picture.
+    ///
+    /// # Errors
+    ///
+    /// As [`compose`](Self::compose).
+    pub fn compose_floats(&self, light: &Light, visibility: &[f32]) -> Result<Vec<[f32; 4]>, ComposeError> {
+        let JudgedScene { gpu, receivers, .. } = &*self.scene;
+        let pass = ComposePass::new(gpu, receivers.size(), FLOAT_FORMAT, &self.surface_layout);
+        let targets = Targets::of_format(gpu, receivers.size(), FLOAT_FORMAT);
+        self.draw(&pass, &targets, light, visibility)?;
+        Ok(bytemuck::pod_collect_to_vec(&read_texture(gpu, &targets.picture, size_of::<[f32; 4]>() as u32)?))
+    }
+
+    fn draw(
+        &self,
+        pass: &ComposePass,
+        targets: &Targets,
+        light: &Light,
+        visibility: &[f32],
+    ) -> Result<(), ComposeError> {
+        let JudgedScene { gpu, local, .. } = &*self.scene;
+        pass.upload(gpu, &self.uniforms.with_light(&local.light(light)), visibility)?;
+        pass.draw(gpu, targets, self.background, &self.meshes);
+        Ok(())
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use contrejour_plan::{Light, ShadowSettings, Technique};
 use contrejour_render::{Contestant, Gpu, Judge};
 use contrejour_scene::Scene;
+use contrejour_tests::gpu::{Equipment, render_gpu};
 use contrejour_trace::{LightShape, OccluderMesh, Occluders, Receiver, TraceOptions, trace};
 use glam::DVec3;
 
@@ -65,7 +66,7 @@ pub fn plates(plates: &[(&str, &str)]) -> Result<JudgedScene, String> {
 
 impl JudgedScene {
     pub fn new(scene: Scene) -> Result<Self, String> {
-        let judge = Judge::new(Gpu::open().map_err(text_of)?, &scene).map_err(text_of)?;
+        let judge = Judge::new(render_gpu(Equipment::Best)?, &scene).map_err(text_of)?;
         let receivers = judge.receivers().map_err(text_of)?;
         let local = judge.local_space();
         let seen_from = scene.camera.eye;
