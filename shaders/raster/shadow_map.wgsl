@@ -31,13 +31,9 @@ fn vertex_shadow_map(@builtin(vertex_index) index: u32) -> ShadowVertex {
     let vertices = vec3u(face.a, face.b, face.c);
     let position = scaled_position(caster, vertices[index % 3u]);
     let clip = caster_lights[item.caster].light_clip_from_object * vec4f(position, 1.0);
-    return ShadowVertex(near_one(clip), depth_of_clip(clip) / view.far_depth);
-}
-
-// The same point of clip space with numbers near 1, by a power of two: rasterisers multiply them by each other.
-fn near_one(clip: vec4f) -> vec4f {
-    let power = bitcast<f32>(0x7f000000u - min(bitcast<u32>(view.far_depth) & 0x7f800000u, 0x7e800000u));
-    return select(clip, power * clip, view.perspective == 1u);
+    // All of clip space may be scaled. Rasterisers divide by its w, which is the depth: near the ends of the type they fail.
+    let clip_scale = select(1.0, reciprocal_power(view.far_depth), view.perspective == 1u);
+    return ShadowVertex(clip * clip_scale, depth_of_clip(clip) / view.far_depth);
 }
 
 @fragment

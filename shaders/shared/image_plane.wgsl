@@ -25,11 +25,6 @@ fn image_direction(clip_from_object: mat4x4f, low: vec3f, high: vec3f) -> vec2f 
     return vec2f(0.0);
 }
 
-// A power of two that brings a size near 1; it is a normal float for any size.
-fn reciprocal_power(size: f32) -> f32 {
-    return bitcast<f32>(0x7f000000u - clamp(bitcast<u32>(size) & 0x7f800000u, 0x00800000u, 0x7e800000u));
-}
-
 // A bound of the terms that a direction is the difference of, for any edge as long as `edge`; `reach` is how far a step
 // along all axes goes in clip space.
 fn longest_image(reach: vec4f, clip: vec4f, edge: vec3f) -> f32 {

@@ -96,7 +96,8 @@ pub const ALL: [MapPass; 7] = [
     smoothie_buffer::SMOOTHIE_BUFFER,
 ];
 
-const SHADOW_MAP_WGSL: &str = wgsl!("raster/shadow_map", "topology", "light", "caster_position", "view_depth");
+const SHADOW_MAP_WGSL: &str =
+    wgsl!("raster/shadow_map", "topology", "light", "caster_position", "view_depth", "power_of_two");
 
 const SMOOTHIE_WGSL: &str = wgsl!("raster/smoothie_buffer", "light", "args", "outline", "view_depth");
 

@@ -16,6 +16,7 @@ pub(super) const BUILD_CORNERS: ComputeStage = ComputeStage {
         "atomic_counters",
         "caster_position",
         "image_plane",
+        "power_of_two",
         "view_depth"
     ),
     writes: &[BufferKind::Corners, BufferKind::Counters],
