@@ -101,7 +101,7 @@ impl Scene {
 
     /// Puts meshes on a floor under a spot light, all of it in the picture; a room is lit and seen from within.
     ///
-    /// Works for any size and place, and for flat and empty meshes. The shadow stays in the light's cone on every
+    /// Works for sizes from 1e-30 and places up to 1e15, and for flat and empty meshes. The shadow stays in the light's cone on every
     /// frame of an [orbit](crate::orbit).
     pub fn around(file: MeshFile) -> Self {
         let warnings = file.warnings.clone();
