@@ -35,6 +35,10 @@ impl Format {
     }
 }
 
+/// Coordinates beyond this leave no room in `f32` for a light and a camera around the mesh: such a scene is refused when
+/// its frame is prepared. It is the largest number of scene files too.
+const REACH: f64 = 1e15;
+
 /// What a file held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Loaded {
@@ -81,7 +85,11 @@ fn check_loaded(file: MeshFile) -> Loaded {
         let topology = topology.unwrap_or_else(|error| panic!("a loaded mesh has no topology: {error}"));
         assert_eq!(topology.faces.len(), mesh.triangles.len());
     }
-    check_scene(&Scene::around(file));
+    let is_in_reach = file.bounds_world().is_none_or(|(low, high)| low.abs().max(high.abs()).max_element() < REACH);
+    let scene = Scene::around(file);
+    if is_in_reach {
+        check_scene(&scene);
+    }
     loaded
 }
 

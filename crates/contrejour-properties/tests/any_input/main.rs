@@ -1,5 +1,6 @@
 //! The properties on what proptest makes up: the same that the fuzz targets check.
 
+mod found;
 mod mutations;
 mod seeds;
 

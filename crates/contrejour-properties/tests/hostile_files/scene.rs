@@ -1,6 +1,6 @@
 //! Scene files.
 
-use super::is_scene;
+use super::{is_scene, turn};
 
 const EYE_AND_LIGHT: &str = "camera = { eye = [3, 2, 5], target = [0, 0, 0] }\n\
     light = { kind = \"directional\", towards_light = [0, 1, 0] }\n";
@@ -11,6 +11,7 @@ fn with_mesh(mesh: &str) -> String {
 
 #[test]
 fn values_that_are_nested_too_deep() {
+    let _turn = turn();
     for count in [1_000, 100_000] {
         let nested = [
             format!("size = {}", "[".repeat(count)),
@@ -30,6 +31,7 @@ fn values_that_are_nested_too_deep() {
 
 #[test]
 fn numbers_of_a_million_digits() {
+    let _turn = turn();
     let digits = "3".repeat(1_000_000);
     assert!(is_scene("a share", &with_mesh(&format!("shape = {{ kind = \"box\" }}\nscale = 0.{digits}"))));
     for number in [digits.clone(), format!("{digits}.0"), format!("0x{digits}"), format!("1e{digits}")] {
@@ -39,6 +41,7 @@ fn numbers_of_a_million_digits() {
 
 #[test]
 fn as_many_meshes_as_a_scene_may_have_and_one_more() {
+    let _turn = turn();
     let meshes = |count: usize| EYE_AND_LIGHT.to_owned() + &"[[mesh]]\nfile='a.stl'\n".repeat(count);
     assert!(is_scene("many meshes", &meshes(65_536)));
     assert!(!is_scene("one more", &meshes(65_537)));
@@ -46,6 +49,7 @@ fn as_many_meshes_as_a_scene_may_have_and_one_more() {
 
 #[test]
 fn shapes_of_more_triangles_than_a_scene_may_have() {
+    let _turn = turn();
     // Each has 4 192 704 triangles, under the most for one.
     let shape = "shape = { kind = \"torus\", segments = 65_000, sides = 32 }\n";
     let scene = EYE_AND_LIGHT.to_owned() + &format!("[[mesh]]\n{shape}").repeat(6);
@@ -56,6 +60,7 @@ fn shapes_of_more_triangles_than_a_scene_may_have() {
 
 #[test]
 fn text_that_is_none() {
+    let _turn = turn();
     for text in ["\0", "size = \"\0\"", "\u{feff}", "a = '''", "a = \"\\uD800\"", "= 1", "[mesh", "\u{85}"] {
         assert!(!is_scene(text, text));
     }
