@@ -59,7 +59,7 @@ pub enum Problem {
     #[error("this is not valid TOML: {0}")]
     Syntax(String),
     /// A key that the section does not have.
-    #[error("{section} has no key `{key}`; it has {known}", known = list(known))]
+    #[error("{section} has no key `{key}`; it has {known}", key = key.escape_debug(), known = list(known))]
     UnknownKey {
         /// The key.
         key: String,
@@ -97,7 +97,7 @@ pub enum Problem {
         expected: String,
     },
     /// A name that stands for nothing.
-    #[error("`{key}` is \"{name}\"; give one of {known}", known = list(known))]
+    #[error("`{key}` is {name:?}; give one of {known}", known = list(known))]
     UnknownName {
         /// The key.
         key: String,
@@ -128,6 +128,12 @@ pub enum Problem {
     /// More meshes than a scene may have.
     #[error("the scene has more than {most} meshes; join some of them", most = Scene::MAX_MESHES)]
     TooManyMeshes,
+    /// More triangles than the shapes of a scene may have together.
+    #[error("the shapes up to here have more than {most} triangles together; give them fewer segments", most = Scene::MAX_SHAPE_TRIANGLES)]
+    TooManyShapeTriangles,
+    /// A file name that no message can show.
+    #[error("`file` has a line break or another control character in it; rename the file")]
+    FileName,
     /// A mesh with no or with two origins.
     #[error("a mesh needs either `shape` or `file`; give one of them, not both")]
     ShapeOrFile,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use contrejour_mesh::{MeshFile, TriangleMesh, read_file};
+use contrejour_mesh::{LoadError, MeshFile, TriangleMesh, read_file};
 use contrejour_plan::{Light, ShadowSettings};
 use glam::{DMat4, DVec3};
 
@@ -43,6 +43,9 @@ impl Scene {
     /// The most bytes of a scene file: 16 MiB.
     pub const MAX_FILE_BYTES: u64 = 1 << 24;
 
+    /// Most triangles that the generated shapes of a scene may have together.
+    pub const MAX_SHAPE_TRIANGLES: usize = 1 << 24;
+
     /// Size of a picture where the scene does not say. Unit: pixels.
     pub const DEFAULT_SIZE: [u32; 2] = [1280, 720];
 
@@ -80,12 +83,25 @@ impl Scene {
     /// # Errors
     /// A mistake in the text, with its line, or a mesh that cannot be loaded.
     pub fn from_toml(text: &str, base_dir: &Path, file_name: &str) -> Result<Self, SceneError> {
-        read_scene(text, base_dir, file_name)
+        Self::from_toml_with(text, base_dir, file_name, &contrejour_mesh::load)
+    }
+
+    /// [`Scene::from_toml`] with the mesh files from `load`, which opens none itself; each path is asked for once.
+    ///
+    /// # Errors
+    /// A mistake in the text, with its line, or what `load` refuses.
+    pub fn from_toml_with(
+        text: &str,
+        base_dir: &Path,
+        file_name: &str,
+        load: &dyn Fn(&Path) -> Result<MeshFile, LoadError>,
+    ) -> Result<Self, SceneError> {
+        read_scene(text, base_dir, file_name, load)
     }
 
     /// Puts meshes on a floor under a spot light, all of it in the picture; a room is lit and seen from within.
     ///
-    /// Works for any size and place, and for flat and empty meshes. The shadow stays in the light's cone on every
+    /// Works for sizes from 1e-30 and places up to 1e15, and for flat and empty meshes. The shadow stays in the light's cone on every
     /// frame of an [orbit](crate::orbit).
     pub fn around(file: MeshFile) -> Self {
         let warnings = file.warnings.clone();

@@ -56,7 +56,7 @@ pub enum LoadError {
         path: PathBuf,
         /// Line, or mesh and primitive.
         place: String,
-        /// What the index counts: `vertex`, `normal` or `joint`.
+        /// What the index counts: `vertex`, `normal`, `joint`, `element` or `accessor`.
         what: &'static str,
         /// The index as the file has it.
         index: i64,
@@ -76,7 +76,7 @@ pub enum LoadError {
         available: u64,
     },
     /// A glTF file cannot be read without an extension that is not supported.
-    #[error("{}: requires the glTF extension {extension}, which is not supported; export again without it (for compression: as plain buffers)", path.display())]
+    #[error("{}: requires the glTF extension {extension:?}, which is not supported; export again without it (for compression: as plain buffers)", path.display())]
     UnsupportedExtension {
         /// The path as given.
         path: PathBuf,
@@ -90,6 +90,16 @@ pub enum LoadError {
         path: PathBuf,
         /// Index of the node.
         node: usize,
+    },
+    /// A glTF file uses its data so often, or counts so many zeros, that it is too much for its size.
+    #[error("{}: {place}: by here there are more than {most} numbers, too many for a file of this size; correct its counts, give fewer nodes a mesh, or split the file", path.display())]
+    TooManyNumbers {
+        /// The path as given.
+        path: PathBuf,
+        /// Where the limit is passed: accessor, node or skin.
+        place: String,
+        /// The most numbers that a file of this size may bring.
+        most: u64,
     },
     /// More vertices than 32-bit indices can name.
     #[error("{}: has more than 4294967295 vertices; split the file", path.display())]

@@ -1,4 +1,4 @@
-//! Mesh files: one function for all formats, and one for each format from bytes.
+//! Mesh files: from a path, from bytes with the files beside them, and one function for each format.
 
 mod error;
 #[cfg(feature = "gltf")]
@@ -26,50 +26,70 @@ pub use stl::load_stl;
 
 /// Loads a mesh file; its extension (.obj, .gltf, .glb, .ply, .stl, in any case) names the format.
 ///
-/// It may have up to [`MAX_FILE_BYTES`]; while it is loaded, memory holds it a few times. A file without triangles is an empty mesh and no error. What the loader leaves out, and that nothing is there, is in
-/// [`MeshFile::warnings`].
+/// It may have up to [`MAX_FILE_BYTES`]; while it is loaded, memory holds it a few times. A file without triangles is an
+/// empty mesh and no error. What the loader leaves out, and that nothing is there, is in [`MeshFile::warnings`].
 ///
 /// # Errors
 ///
 /// Any [`LoadError`]; the file is either loaded completely or refused.
 pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
+    let format = format_of(path)?;
+    load_format(format, &read_file(path)?, path, &read_file)
+}
+
+/// Gives the bytes of a file that a mesh file names: a material library, or a buffer of a glTF file.
+///
+/// Paths are as the file names them, joined to the folder of the mesh file's own path.
+pub type ReadFile<'a> = dyn Fn(&Path) -> Result<Vec<u8>, LoadError> + 'a;
+
+/// Loads a mesh file from its bytes, and the files that it names through `read_beside`: from an archive, say.
+///
+/// `path` names the format as in [`load`] and is for messages; nothing is opened.
+///
+/// # Errors
+///
+/// Any [`LoadError`]; a buffer that `read_beside` refuses is one, a material library is a warning.
+pub fn load_bytes(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<MeshFile, LoadError> {
+    load_format(format_of(path)?, bytes, path, read_beside)
+}
+
+/// The cargo feature of the format that a path's extension names.
+fn format_of(path: &Path) -> Result<&'static str, LoadError> {
     let extension = path.extension().and_then(|extension| extension.to_str());
-    let format = match extension.map(str::to_ascii_lowercase).as_deref() {
-        Some("obj") => "obj",
-        Some("gltf" | "glb") => "gltf",
-        Some("ply") => "ply",
-        Some("stl") => "stl",
-        _ if path.is_dir() => return Err(ReadFileError::Directory { path: path.into() }.into()),
-        _ => return Err(LoadError::UnknownFormat { path: path.into() }),
-    };
-    let bytes = read_file(path)?;
-    if bytes.is_empty() {
-        return Err(LoadError::Empty { path: path.into() });
+    match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("obj") => Ok("obj"),
+        Some("gltf" | "glb") => Ok("gltf"),
+        Some("ply") => Ok("ply"),
+        Some("stl") => Ok("stl"),
+        _ if path.is_dir() => Err(ReadFileError::Directory { path: path.into() }.into()),
+        _ => Err(LoadError::UnknownFormat { path: path.into() }),
     }
-    let mut file = load_format(format, &bytes, path)?;
-    if file.triangle_count() == 0 {
-        file.warnings.push(format!("{}: there is no face in the file; export the mesh with its faces", path.display()));
-    }
-    Ok(file)
 }
 
 /// Loads from bytes, where the loader of the format is built in.
 #[cfg_attr(
-    not(any(feature = "obj", feature = "gltf", feature = "ply", feature = "stl")),
-    expect(unused_variables, reason = "no loader reads the bytes")
+    not(any(feature = "obj", feature = "gltf")),
+    expect(unused_variables, reason = "no loader reads the files beside")
 )]
-fn load_format(format: &'static str, bytes: &[u8], path: &Path) -> Result<MeshFile, LoadError> {
-    match format {
-        #[cfg(feature = "obj")]
-        "obj" => load_obj(bytes, path),
-        #[cfg(feature = "gltf")]
-        "gltf" => load_gltf(bytes, path),
-        #[cfg(feature = "ply")]
-        "ply" => load_ply(bytes, path),
-        #[cfg(feature = "stl")]
-        "stl" => load_stl(bytes, path),
-        feature => Err(LoadError::FormatDisabled { path: path.into(), feature }),
+fn load_format(format: &'static str, bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<MeshFile, LoadError> {
+    if bytes.is_empty() {
+        return Err(LoadError::Empty { path: path.into() });
     }
+    let mut file = match format {
+        #[cfg(feature = "obj")]
+        "obj" => obj::load(bytes, path, read_beside)?,
+        #[cfg(feature = "gltf")]
+        "gltf" => gltf::load(bytes, path, read_beside)?,
+        #[cfg(feature = "ply")]
+        "ply" => load_ply(bytes, path)?,
+        #[cfg(feature = "stl")]
+        "stl" => load_stl(bytes, path)?,
+        feature => return Err(LoadError::FormatDisabled { path: path.into(), feature }),
+    };
+    if file.triangle_count() == 0 {
+        file.warnings.push(format!("{}: there is no face in the file; export the mesh with its faces", path.display()));
+    }
+    Ok(file)
 }
 
 /// The most bytes of a mesh file, and of each file that it names: 2 GiB.

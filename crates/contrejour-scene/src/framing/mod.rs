@@ -11,6 +11,9 @@ use crate::{Bounds, Scene, SceneMesh};
 
 pub(crate) use depths::{camera_depths, cone_angle, light_depths, sun_extents};
 
+/// Boxes that are smaller count as points, so that no depth is too small for 32 bits.
+const SMALLEST: f64 = 1e-30;
+
 /// A scene around meshes that bring none.
 pub(crate) fn frame(meshes: Vec<SceneMesh>) -> Scene {
     let bounds = meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union);
@@ -27,12 +30,13 @@ fn with_some_size(bounds: Bounds) -> Bounds {
         return Bounds { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) };
     }
     let middle = bounds.center();
+    let distance = middle.abs().max_element();
     // Finer than this, f32 positions cannot differ.
-    let finest = 1e-7 * middle.abs().max_element();
+    let finest = (1e-7 * distance).max(SMALLEST);
     if bounds.size().length() > finest {
         return bounds;
     }
-    let half = if finest > 0.0 { 1e3 * finest } else { 0.5 };
+    let half = if distance > 0.0 { 1e3 * finest } else { 0.5 };
     Bounds { min: middle - half, max: middle + half }
 }
 

@@ -1,15 +1,17 @@
 //! The sections `mesh`, and `shape` within.
 
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use contrejour_mesh::{LoadError, MeshFile};
 use glam::{DMat4, DQuat, DVec3, EulerRot};
 
 use super::section::Section;
 use super::value::{ANY, NOT_ZERO, SHARE, Value};
 use crate::scene::placed_meshes;
 use crate::shapes::Shape;
-use crate::{Material, MeshSource, Problem, SceneError, SceneMesh};
+use crate::{Material, MeshSource, Problem, Scene, SceneError, SceneMesh};
 
 pub(super) const MESH_KEYS: &[&str] =
     &["name", "shape", "file", "translate", "rotate_degrees", "scale", "base_color", "casts", "receives"];
@@ -28,55 +30,90 @@ const SHAPE_KEYS: [&[&str]; 8] = [
 const ALL_SHAPE_KEYS: &[&str] =
     &["kind", "size", "segments", "radius", "height", "tube_radius", "sides", "columns", "rows", "bar"];
 
-/// The meshes of one section, one or as many as its file has, and what the loader warns about.
-pub(super) fn read_meshes(section: &Section<'_>, base_dir: &Path) -> Result<(Vec<SceneMesh>, Vec<String>), SceneError> {
-    let mut warnings = Vec::new();
-    let mut meshes = match (section.get("shape"), section.get("file")) {
-        (Some(shape), None) => vec![generated(&shape)?],
-        (None, Some(file)) => {
-            let path = base_dir.join(file.text()?);
-            let mut loaded = contrejour_mesh::load(&path).map_err(|error| file.refuse(error.into()))?;
-            warnings.append(&mut loaded.warnings);
-            placed_meshes(loaded, &MeshSource::File(path))
-        }
-        (None, None) => return Err(section.refuse(Problem::ShapeOrFile)),
-        (Some(_), Some(_)) => return Err(section.refuse_key("file", Problem::ShapeOrFile)),
-    };
-    let world_from_section = read_placement(section)?;
-    let name = section.get("name").map(|value| value.text()).transpose()?;
-    let base_color = section.get("base_color").map(|value| value.color(SHARE)).transpose()?;
-    let casts = section.read_or("casts", true, Value::flag)?;
-    let receives = section.read_or("receives", true, Value::flag)?;
-    for mesh in &mut meshes {
-        if let Some(name) = name {
-            mesh.name = name.to_owned();
-        }
-        mesh.world_from_object = world_from_section * mesh.world_from_object;
-        mesh.material = Material { base_color };
-        mesh.casts = casts;
-        mesh.receives = receives;
-    }
-    Ok((meshes, warnings))
+/// Gives the meshes of a file.
+pub(super) type LoadMeshes<'a> = dyn Fn(&Path) -> Result<MeshFile, LoadError> + 'a;
+
+/// The meshes of sections, and what is known of those before.
+pub(super) struct MeshReader<'a> {
+    base_dir: &'a Path,
+    load: &'a LoadMeshes<'a>,
+    files: HashMap<PathBuf, Vec<SceneMesh>>,
+    shape_triangles: usize,
+    /// What the loaders warn about.
+    pub warnings: Vec<String>,
 }
 
-fn generated(value: &Value<'_>) -> Result<SceneMesh, SceneError> {
-    let shape = read_shape(value)?;
-    let mesh = shape.generate().map_err(|error| {
-        let section = value.section("the shape", ALL_SHAPE_KEYS);
-        match section {
-            Ok(section) => section.refuse_key(error.parameter(), error.into()),
-            Err(_) => value.refuse(error.into()),
+impl<'a> MeshReader<'a> {
+    /// A reader of files in `base_dir`.
+    pub fn new(base_dir: &'a Path, load: &'a LoadMeshes<'a>) -> Self {
+        Self { base_dir, load, files: HashMap::new(), shape_triangles: 0, warnings: Vec::new() }
+    }
+
+    /// The meshes of one section, one or as many as its file has.
+    pub fn read(&mut self, section: &Section<'_>) -> Result<Vec<SceneMesh>, SceneError> {
+        let mut meshes = match (section.get("shape"), section.get("file")) {
+            (Some(shape), None) => vec![self.generated(&shape)?],
+            (None, Some(file)) => self.loaded(&file)?,
+            (None, None) => return Err(section.refuse(Problem::ShapeOrFile)),
+            (Some(_), Some(_)) => return Err(section.refuse_key("file", Problem::ShapeOrFile)),
+        };
+        let world_from_section = read_placement(section)?;
+        let name = section.get("name").map(|value| value.text()).transpose()?;
+        let base_color = section.get("base_color").map(|value| value.color(SHARE)).transpose()?;
+        let casts = section.read_or("casts", true, Value::flag)?;
+        let receives = section.read_or("receives", true, Value::flag)?;
+        for mesh in &mut meshes {
+            if let Some(name) = name {
+                mesh.name = name.to_owned();
+            }
+            mesh.world_from_object = world_from_section * mesh.world_from_object;
+            mesh.material = Material { base_color };
+            mesh.casts = casts;
+            mesh.receives = receives;
         }
-    })?;
-    Ok(SceneMesh {
-        name: shape.kind().to_owned(),
-        source: MeshSource::Shape(shape),
-        mesh: Arc::new(mesh),
-        world_from_object: DMat4::IDENTITY,
-        material: Material::default(),
-        casts: true,
-        receives: true,
-    })
+        Ok(meshes)
+    }
+
+    /// The meshes of a file, which sections that name the same file share.
+    fn loaded(&mut self, file: &Value<'_>) -> Result<Vec<SceneMesh>, SceneError> {
+        let name = file.text()?;
+        if name.contains(char::is_control) {
+            return Err(file.refuse(Problem::FileName));
+        }
+        let path = self.base_dir.join(name);
+        if let Some(meshes) = self.files.get(&path) {
+            return Ok(meshes.clone());
+        }
+        let mut loaded = (self.load)(&path).map_err(|error| file.refuse(error.into()))?;
+        self.warnings.append(&mut loaded.warnings);
+        let meshes = placed_meshes(loaded, &MeshSource::File(path.clone()));
+        self.files.insert(path, meshes.clone());
+        Ok(meshes)
+    }
+
+    fn generated(&mut self, value: &Value<'_>) -> Result<SceneMesh, SceneError> {
+        let shape = read_shape(value)?;
+        let mesh = shape.generate().map_err(|error| {
+            let section = value.section("the shape", ALL_SHAPE_KEYS);
+            match section {
+                Ok(section) => section.refuse_key(error.parameter(), error.into()),
+                Err(_) => value.refuse(error.into()),
+            }
+        })?;
+        self.shape_triangles += mesh.triangles.len();
+        if self.shape_triangles > Scene::MAX_SHAPE_TRIANGLES {
+            return Err(value.refuse(Problem::TooManyShapeTriangles));
+        }
+        Ok(SceneMesh {
+            name: shape.kind().to_owned(),
+            source: MeshSource::Shape(shape),
+            mesh: Arc::new(mesh),
+            world_from_object: DMat4::IDENTITY,
+            material: Material::default(),
+            casts: true,
+            receives: true,
+        })
+    }
 }
 
 /// First scaled, then turned about x, then y, then z, then moved.

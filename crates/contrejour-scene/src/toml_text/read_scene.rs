@@ -7,7 +7,7 @@ use toml::de::DeTable;
 
 use super::read_camera::read_camera;
 use super::read_light::read_light;
-use super::read_mesh::{MESH_KEYS, read_meshes};
+use super::read_mesh::{LoadMeshes, MESH_KEYS, MeshReader};
 use super::read_shadow::read_shadow;
 use super::section::{Document, Section};
 use super::value::{NOT_NEGATIVE, Value};
@@ -15,17 +15,15 @@ use crate::{Bounds, Problem, Scene, SceneError, SceneMesh};
 
 const SCENE_KEYS: &[&str] = &["size", "ambient", "background", "camera", "light", "shadow", "mesh"];
 
-pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str) -> Result<Scene, SceneError> {
+pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str, load: &LoadMeshes) -> Result<Scene, SceneError> {
     let document = Document { file_name, text };
     let table = DeTable::parse(text).map_err(|error| document.refuse_syntax(&error))?;
     // What the scene as a whole lacks is told at its first line.
     let section = Section::new(document, "the scene", 0..0, table.get_ref(), SCENE_KEYS)?;
     let mut meshes: Vec<SceneMesh> = Vec::new();
-    let mut warnings = Vec::new();
+    let mut reader = MeshReader::new(base_dir, load);
     for mesh in section.require("mesh")?.sections("a mesh", MESH_KEYS)? {
-        let (placed, warned) = read_meshes(&mesh, base_dir)?;
-        meshes.extend(placed);
-        warnings.extend(warned);
+        meshes.extend(reader.read(&mesh)?);
         if meshes.len() > Scene::MAX_MESHES {
             return Err(mesh.refuse(Problem::TooManyMeshes));
         }
@@ -40,7 +38,7 @@ pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str) -> Result
         ambient: color("ambient", Scene::DEFAULT_AMBIENT)?,
         background: color("background", Scene::DEFAULT_BACKGROUND)?,
         meshes,
-        warnings,
+        warnings: reader.warnings,
     })
 }
 

@@ -1,16 +1,21 @@
 //! Reading accessors with every length checked first (the gltf crate's own readers trust the file).
 
-use std::borrow::Cow;
+use std::cell::Cell;
 use std::path::Path;
 
 use gltf::Accessor;
 use gltf::accessor::DataType;
 use gltf::buffer::View;
 
+use super::buffers::Buffers;
 use crate::LoadError;
 
-/// The largest accessor that may stand without any data behind it (all zeros, or sparse values).
-const LARGEST_WITHOUT_DATA: u64 = 1 << 16;
+/// Numbers that a file may bring for each of its bytes. A node of a few bytes can repeat a mesh of any size, and an
+/// accessor without a buffer view is zeros of any number.
+const NUMBERS_PER_BYTE: u64 = 256;
+
+/// Numbers that any file may bring by repeating what it has: 11 million triangles of an ordinary mesh.
+const MOST_REPEATED: u64 = 1 << 26;
 
 /// How integers become numbers.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -21,13 +26,31 @@ pub(super) enum Integers {
     Normalized,
 }
 
-/// Bytes of all buffers, and the path for messages.
+/// Bytes of all buffers, the path for messages, and how much has been made of them.
 pub(super) struct Data<'a> {
-    pub(super) buffers: Vec<Cow<'a, [u8]>>,
+    buffers: Buffers<'a>,
     pub(super) path: &'a Path,
+    most_numbers: u64,
+    numbers: Cell<u64>,
 }
 
-impl Data<'_> {
+impl<'a> Data<'a> {
+    /// The data of a file of so many bytes, buffers beside it not counted.
+    pub(super) fn new(buffers: Buffers<'a>, path: &'a Path, file_bytes: usize) -> Self {
+        let bytes = file_bytes as u64 + buffers.byte_count;
+        let most_numbers = bytes + (NUMBERS_PER_BYTE * bytes).min(MOST_REPEATED);
+        Self { buffers, path, most_numbers, numbers: Cell::new(0) }
+    }
+
+    /// Counts what a place of the file brings, so that memory and time follow the size of the file.
+    pub(super) fn count_numbers(&self, numbers: u64, place: impl Fn() -> String) -> Result<(), LoadError> {
+        self.numbers.set(self.numbers.get().saturating_add(numbers));
+        if self.numbers.get() > self.most_numbers {
+            return Err(LoadError::TooManyNumbers { path: self.path.into(), place: place(), most: self.most_numbers });
+        }
+        Ok(())
+    }
+
     /// All elements of an accessor of `N` components; `f64` holds all component types exactly.
     pub(super) fn read<const N: usize>(
         &self,
@@ -42,14 +65,16 @@ impl Data<'_> {
         let size = N * data_type.size();
         let is_normalized = integers == Integers::Normalized || accessor.normalized();
         let count = accessor.count();
+        let numbers_of = |count: usize| (count as u64).saturating_mul(N as u64);
         let mut elements = match accessor.view() {
             Some(view) => {
                 let stride = view.stride().unwrap_or(size);
                 let bytes = self.slice(&view, accessor.offset(), stride, size, count, place)?;
+                self.count_numbers(numbers_of(count), place)?;
                 (0..count).map(|index| element(&bytes[index * stride..], data_type, is_normalized)).collect()
             }
             None => {
-                self.check_without_data(count, place)?;
+                self.count_numbers(numbers_of(count), place)?;
                 vec![[0.0; N]; count]
             }
         };
@@ -65,6 +90,7 @@ impl Data<'_> {
             let index_bytes =
                 self.slice(&indices.view(), indices.offset(), index_size, index_size, sparse.count(), place)?;
             let value_bytes = self.slice(&values.view(), values.offset(), size, size, sparse.count(), place)?;
+            self.count_numbers(numbers_of(sparse.count()), place)?;
             for nth in 0..sparse.count() {
                 let [index] = element(&index_bytes[nth * index_size..], index_type, false);
                 let target = elements.get_mut(index as usize).ok_or_else(|| LoadError::IndexOutOfRange {
@@ -115,7 +141,7 @@ impl Data<'_> {
                 self.malformed(place(), "has elements that overlap (byteStride too small); export the file again")
             );
         }
-        let buffer = &self.buffers[view.buffer().index()];
+        let buffer = &self.buffers.contents[view.buffer().index()];
         let view_end = (view.offset() as u64).saturating_add(view.length() as u64);
         if view_end > buffer.len() as u64 {
             return Err(beyond(view_end, buffer.len()));
@@ -129,20 +155,6 @@ impl Data<'_> {
             return Err(beyond(end, view.length()));
         }
         Ok(&buffer[view.offset() + offset..view.offset() + offset + of_elements as usize])
-    }
-
-    fn check_without_data(&self, count: usize, place: impl Fn() -> String) -> Result<(), LoadError> {
-        let in_buffers: usize = self.buffers.iter().map(|bytes| bytes.len()).sum();
-        let available = LARGEST_WITHOUT_DATA.max(in_buffers as u64);
-        if count as u64 > available {
-            return Err(LoadError::BeyondData {
-                path: self.path.into(),
-                place: place(),
-                needed: count as u64,
-                available,
-            });
-        }
-        Ok(())
     }
 
     pub(super) fn malformed(&self, place: String, problem: &str) -> LoadError {

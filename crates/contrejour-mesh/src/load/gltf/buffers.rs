@@ -1,57 +1,85 @@
 //! The bytes that accessors look into: binary chunk, data URIs, files beside the glTF file.
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use gltf::Document;
 use gltf::buffer::Source;
 
 use crate::LoadError;
-use crate::load::read_file;
+use crate::load::ReadFile;
 
-/// Contents of each buffer, at least as long as the document says.
+/// The buffers of a file.
+pub(super) struct Buffers<'a> {
+    /// Contents of each, at least as long as the document says. Those that name the same file share it.
+    pub(super) contents: Vec<Rc<Cow<'a, [u8]>>>,
+    /// Bytes of all contents together.
+    pub(super) byte_count: u64,
+}
+
 pub(super) fn read_buffers<'a>(
     document: &Document,
     binary_chunk: Option<Cow<'a, [u8]>>,
     path: &Path,
-) -> Result<Vec<Cow<'a, [u8]>>, LoadError> {
+    read_beside: &ReadFile,
+) -> Result<Buffers<'a>, LoadError> {
     let mut binary_chunk = binary_chunk;
-    document
-        .buffers()
-        .map(|buffer| {
-            let place = || format!("buffer {}", buffer.index());
-            let malformed =
-                |problem: &str| LoadError::Malformed { path: path.into(), place: place(), problem: problem.into() };
-            let bytes = match buffer.source() {
-                Source::Bin => binary_chunk.take().ok_or_else(|| {
+    let mut buffers = Buffers { contents: Vec::new(), byte_count: 0 };
+    let mut contents_of_files: HashMap<PathBuf, Rc<Cow<[u8]>>> = HashMap::new();
+    for buffer in document.buffers() {
+        let place = || format!("buffer {}", buffer.index());
+        let malformed =
+            |problem: &str| LoadError::Malformed { path: path.into(), place: place(), problem: problem.into() };
+        let mut added = |bytes: Cow<'a, [u8]>| {
+            buffers.byte_count += bytes.len() as u64;
+            Rc::new(bytes)
+        };
+        let bytes =
+            match buffer.source() {
+                Source::Bin => added(binary_chunk.take().ok_or_else(|| {
                     malformed("has no uri, and the file no binary chunk for it; export the file again")
-                })?,
+                })?),
                 Source::Uri(uri) => match uri.strip_prefix("data:") {
-                    Some(data) => Cow::Owned(
+                    Some(data) => added(Cow::Owned(
                         data_uri_bytes(data)
                             .ok_or_else(|| malformed("its data URI cannot be decoded; export the file again"))?,
-                    ),
+                    )),
                     None if uri.contains("://") => {
                         return Err(malformed("is on the network; download it and name the file"));
                     }
-                    None => Cow::Owned(read_file(&beside(path, uri))?),
+                    None => {
+                        let file = beside(path, uri);
+                        if file.to_string_lossy().contains(char::is_control) {
+                            return Err(malformed("its uri has a control character; rename the file"));
+                        }
+                        match contents_of_files.get(&file) {
+                            Some(bytes) => Rc::clone(bytes),
+                            None => {
+                                let bytes = added(Cow::Owned(read_beside(&file)?));
+                                contents_of_files.insert(file, Rc::clone(&bytes));
+                                bytes
+                            }
+                        }
+                    }
                 },
             };
-            if (bytes.len() as u64) < buffer.length() as u64 {
-                return Err(LoadError::BeyondData {
-                    path: path.into(),
-                    place: place(),
-                    needed: buffer.length() as u64,
-                    available: bytes.len() as u64,
-                });
-            }
-            Ok(bytes)
-        })
-        .collect()
+        if (bytes.len() as u64) < buffer.length() as u64 {
+            return Err(LoadError::BeyondData {
+                path: path.into(),
+                place: place(),
+                needed: buffer.length() as u64,
+                available: bytes.len() as u64,
+            });
+        }
+        buffers.contents.push(bytes);
+    }
+    Ok(buffers)
 }
 
 /// The file that a relative URI names.
-fn beside(path: &Path, uri: &str) -> std::path::PathBuf {
+fn beside(path: &Path, uri: &str) -> PathBuf {
     let name = percent_decoded(uri);
     let name = String::from_utf8_lossy(&name);
     path.parent().unwrap_or(Path::new("")).join(&*name)

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use gltf::json::validation::{Error as Invalid, Validate};
-use gltf::{Document, Glb};
+use gltf::json::Root;
+use gltf::json::validation::{Checked, Error as Invalid, Validate};
+use gltf::{Document, Glb, Semantic};
 
 use crate::LoadError;
 
@@ -26,8 +27,11 @@ pub(super) struct Parsed<'a> {
 }
 
 pub(super) fn parse<'a>(bytes: &'a [u8], path: &Path) -> Result<Parsed<'a>, LoadError> {
-    let malformed =
-        |place: &str, problem: String| LoadError::Malformed { path: path.into(), place: place.into(), problem };
+    let malformed = |place: &str, problem: String| LoadError::Malformed {
+        path: path.into(),
+        place: one_line(place),
+        problem: one_line(&problem),
+    };
     let (json, binary_chunk) = if bytes.starts_with(b"glTF") {
         check_glb_length(bytes, path)?;
         let glb = Glb::from_slice(bytes)
@@ -36,7 +40,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], path: &Path) -> Result<Parsed<'a>, Load
     } else {
         (bytes.into(), None)
     };
-    let mut root: gltf::json::Root = gltf::json::deserialize::from_slice(&json)
+    let mut root: Root = gltf::json::deserialize::from_slice(&json)
         .map_err(|error| malformed("JSON", format!("{error}; correct it or export the file again")))?;
 
     let is_known = |name: &String| KNOWN_EXTENSIONS.contains(&name.as_str()) || name.starts_with("KHR_materials_");
@@ -46,6 +50,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], path: &Path) -> Result<Parsed<'a>, Load
     // The validation below knows fewer extensions.
     root.extensions_required.clear();
 
+    check_position_accessors(&root, path)?;
     let mut first_invalid = None;
     root.validate(&root, gltf::json::Path::new, &mut |place, invalid| {
         let place = place().to_string();
@@ -62,6 +67,31 @@ pub(super) fn parse<'a>(bytes: &'a [u8], path: &Path) -> Result<Parsed<'a>, Load
         }
         None => Ok(Parsed { document: Document::from_json_without_validation(root), binary_chunk }),
     }
+}
+
+/// The validation of a primitive follows the index of its positions without a look.
+fn check_position_accessors(root: &Root, path: &Path) -> Result<(), LoadError> {
+    let count = root.accessors.len();
+    for (mesh, of_mesh) in root.meshes.iter().enumerate() {
+        for (primitive, of_primitive) in of_mesh.primitives.iter().enumerate() {
+            let positions = of_primitive.attributes.get(&Checked::Valid(Semantic::Positions));
+            if let Some(accessor) = positions.filter(|accessor| accessor.value() >= count) {
+                return Err(LoadError::IndexOutOfRange {
+                    path: path.into(),
+                    place: format!("mesh {mesh}, primitive {primitive}, POSITION"),
+                    what: "accessor",
+                    index: accessor.value() as i64,
+                    count,
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Names in the file can hold line breaks.
+fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
 }
 
 /// The length in the header, which the reader of the container trusts to be at least its own size.

@@ -12,7 +12,7 @@ use std::path::Path;
 use glam::DMat4;
 use gltf::Node;
 
-use super::is_finite;
+use super::{ReadFile, is_finite, read_file};
 use crate::{LoadError, MeshFile, MeshNode, TriangleMesh};
 
 use accessor::Data;
@@ -30,9 +30,15 @@ use primitive::LeftOut;
 ///
 /// [`LoadError`] with node, mesh, primitive, accessor or buffer.
 pub fn load_gltf(bytes: &[u8], path: &Path) -> Result<MeshFile, LoadError> {
+    load(bytes, path, &read_file)
+}
+
+/// [`load_gltf`] with the buffers beside the file from `read_beside`.
+pub(super) fn load(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<MeshFile, LoadError> {
     let parsed = document::parse(bytes, path)?;
     let document = &parsed.document;
-    let data = Data { buffers: buffers::read_buffers(document, parsed.binary_chunk, path)?, path };
+    let buffers = buffers::read_buffers(document, parsed.binary_chunk, path, read_beside)?;
+    let data = Data::new(buffers, path, bytes.len());
     let world_from_nodes = nodes::world_from_nodes(document, path)?;
     let mut loader = Loader {
         data,
@@ -72,15 +78,16 @@ impl Loader<'_> {
         let Some(source) = node.mesh() else {
             return Ok(None);
         };
+        let name = node.name().or(source.name()).unwrap_or_default();
+        // Each primitive takes time, also where it brings nothing.
+        let number_count = name.len() as u64 + 16 * source.primitives().len() as u64;
+        self.data.count_numbers(number_count, || nodes::node_place(node))?;
         let weights = node.weights().or(source.weights()).unwrap_or_default();
         let joint_matrices = match node.skin() {
             Some(skin) => Some(skin::joint_matrices(&skin, &self.world_from_nodes, &self.data)?),
             None => None,
         };
-        let mut mesh = TriangleMesh {
-            name: node.name().or(source.name()).unwrap_or_default().to_owned(),
-            ..TriangleMesh::default()
-        };
+        let mut mesh = TriangleMesh { name: name.to_owned(), ..TriangleMesh::default() };
         for primitive in source.primitives() {
             let place =
                 format!("{}, mesh {}, primitive {}", nodes::node_place(node), source.index(), primitive.index());

@@ -82,10 +82,13 @@ fn parent_from_node(node: &Node) -> DMat4 {
     }
 }
 
-/// A node for messages.
+/// A node for messages, with the start of its name.
 pub(super) fn node_place(node: &Node) -> String {
     match node.name() {
-        Some(name) => format!("node {} {name:?}", node.index()),
+        Some(name) => {
+            let start: String = name.chars().take(60).collect();
+            format!("node {} {start:?}", node.index())
+        }
         None => format!("node {}", node.index()),
     }
 }

@@ -5,6 +5,7 @@ use gltf::{Primitive, Semantic};
 
 use super::accessor::{Data, Integers};
 use crate::LoadError;
+use crate::load::is_finite;
 
 /// Vertices of a primitive before they are rounded to 32 bits.
 pub(super) struct Vertices {
@@ -62,7 +63,7 @@ fn add_scaled(base: &mut [[f64; 3]], differences: &[[f64; 3]], weight: f64) {
 
 fn read_colors(primitive: &Primitive, count: usize, data: &Data) -> Result<Vec<[f32; 3]>, LoadError> {
     let [red, green, blue, _] = primitive.material().pbr_metallic_roughness().base_color_factor();
-    let factor = [red, green, blue];
+    let factor = [red, green, blue].map(|channel| channel.clamp(0.0, 1.0));
     let times_factor = |red: f64, green: f64, blue: f64| {
         let color = [red as f32, green as f32, blue as f32];
         [0, 1, 2].map(|channel| (factor[channel] * color[channel]).clamp(0.0, 1.0))
@@ -70,13 +71,19 @@ fn read_colors(primitive: &Primitive, count: usize, data: &Data) -> Result<Vec<[
     let Some(accessor) = primitive.get(&Semantic::Colors(0)) else {
         return Ok(vec![times_factor(1.0, 1.0, 1.0); count]);
     };
-    if accessor.dimensions().multiplicity() == 4 {
+    let colors: Vec<[f32; 3]> = if accessor.dimensions().multiplicity() == 4 {
         let colors = data.read_attribute::<4>(&accessor, Integers::Normalized, count)?;
-        Ok(colors.iter().map(|&[r, g, b, _]| times_factor(r, g, b)).collect())
+        colors.iter().map(|&[r, g, b, _]| times_factor(r, g, b)).collect()
     } else {
         let colors = data.read_attribute::<3>(&accessor, Integers::Normalized, count)?;
-        Ok(colors.iter().map(|&[r, g, b]| times_factor(r, g, b)).collect())
+        colors.iter().map(|&[r, g, b]| times_factor(r, g, b)).collect()
+    };
+    // What is not a number stays so when it is clamped.
+    if colors.iter().copied().all(is_finite) {
+        return Ok(colors);
     }
+    let place = format!("accessor {}", accessor.index());
+    Err(data.malformed(place, "has a colour that is no number; correct it"))
 }
 
 /// Whether a primitive is made of triangles.

@@ -9,6 +9,8 @@ use crate::LoadError;
 
 /// For each joint of a skin: world space from the space in which the mesh was bound.
 pub(super) fn joint_matrices(skin: &Skin, world_from_nodes: &[DMat4], data: &Data) -> Result<Vec<DMat4>, LoadError> {
+    let number_count = 16 * skin.joints().len() as u64;
+    data.count_numbers(number_count, || format!("skin {}", skin.index()))?;
     let joints: Vec<DMat4> = skin.joints().map(|joint| world_from_nodes[joint.index()]).collect();
     let Some(accessor) = skin.inverse_bind_matrices() else {
         return Ok(joints);

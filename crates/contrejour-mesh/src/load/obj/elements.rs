@@ -38,6 +38,9 @@ pub(super) fn vertex_position(rest: &str, seen: &mut Seen) -> Result<[f32; 3], &
         3 => Ok([x, y, z]),
         4 if w == 0.0 => Err("a vertex has weight 0, a point at infinity; delete its fourth number"),
         4 => Ok([x / w, y / w, z / w]),
+        6 if !is_finite([numbers[3], numbers[4], numbers[5]]) => {
+            Err("a vertex has a colour that is no finite number; correct it")
+        }
         6 => {
             seen.colored_count += 1;
             Ok([x, y, z])

@@ -1,5 +1,6 @@
 //! The pre-pass over an OBJ file: joins lines, checks what tobj would report without a line, keeps vertex numbers.
 
+use std::collections::HashSet;
 use std::collections::hash_map::{Entry, HashMap};
 use std::path::Path;
 
@@ -23,6 +24,7 @@ pub(super) struct ObjLines {
     pub(super) libraries: Vec<String>,
     /// Materials that faces use, each once, in order.
     pub(super) materials: Vec<String>,
+    known_materials: HashSet<String>,
     /// Lowest `v` line, from 0, at each position.
     pub(super) numbers: HashMap<[u32; 3], u32>,
     /// `v` lines that no face uses.
@@ -114,7 +116,7 @@ impl ObjLines {
     fn use_material(&mut self, name: &str) {
         // A name that no library has makes tobj use no material.
         self.keep(&format!("usemtl {}", if name.is_empty() { "(none)" } else { name }));
-        if !self.materials.iter().any(|known| known == name) {
+        if self.known_materials.insert(name.to_owned()) {
             self.materials.push(name.to_owned());
         }
     }

@@ -1,10 +1,11 @@
 //! Diffuse colours of OBJ materials.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use super::lines::ObjLines;
 use crate::TriangleMesh;
-use crate::load::read_file;
+use crate::load::ReadFile;
 
 /// Name and linear diffuse colour of each material that the file's libraries define.
 #[derive(Default)]
@@ -15,26 +16,39 @@ pub(super) struct Materials {
 
 impl Materials {
     /// Reads the libraries that the file names; what is missing is a warning.
-    pub(super) fn read(lines: &ObjLines, path: &Path, warnings: &mut Vec<String>) -> Self {
+    pub(super) fn read(lines: &ObjLines, path: &Path, read_beside: &ReadFile, warnings: &mut Vec<String>) -> Self {
         let mut materials = Self::default();
         let mut has_textures = false;
         let mut is_complete = true;
         let folder = path.parent().unwrap_or(Path::new(""));
-        for name in lines.libraries.iter().flat_map(|names| library_names(names, folder)) {
-            match read_file(&folder.join(name)) {
-                Ok(bytes) => {
-                    has_textures |= materials.append(&String::from_utf8_lossy(&bytes), name, warnings);
-                }
-                Err(error) => {
-                    is_complete = false;
-                    warnings.push(format!("material library not read, default colour used: {error}"));
+        let mut append = |name: &str, bytes: &[u8], warnings: &mut Vec<String>| {
+            has_textures |= materials.append(&String::from_utf8_lossy(bytes), name, warnings);
+        };
+        let mut names_read = HashSet::new();
+        for line in &lines.libraries {
+            if !names_read.insert(line.as_str()) {
+                continue;
+            }
+            // One name with spaces where such a file exists, else names between spaces.
+            if let Ok(bytes) = read_beside(&folder.join(line)) {
+                append(line, &bytes, warnings);
+                continue;
+            }
+            for name in line.split_whitespace().filter(|&name| name == line || names_read.insert(name)) {
+                match read_beside(&folder.join(name)) {
+                    Ok(bytes) => append(name, &bytes, warnings),
+                    Err(error) => {
+                        is_complete = false;
+                        warnings.push(format!("material library not read, default colour used: {error}"));
+                    }
                 }
             }
         }
         if has_textures {
             warnings.push("textures of materials are not read; their diffuse colours are used".into());
         }
-        let undefined: Vec<&String> = lines.materials.iter().filter(|name| !materials.names.contains(name)).collect();
+        let defined: HashSet<&String> = materials.names.iter().collect();
+        let undefined: Vec<&String> = lines.materials.iter().filter(|name| !defined.contains(name)).collect();
         if let (Some(first), true) = (undefined.first(), is_complete) {
             warnings.push(format!(
                 "{} materials are in no material library, default colour used; the first is {first:?}",
@@ -80,11 +94,6 @@ impl Materials {
         let by_name = self.names.iter().cloned().zip(0..).collect();
         Ok((self.names.iter().map(to_material).collect(), by_name))
     }
-}
-
-/// The files of one `mtllib` line: one name with spaces where such a file exists, else names between spaces.
-fn library_names<'a>(names: &'a str, folder: &Path) -> Vec<&'a str> {
-    if folder.join(names).is_file() { vec![names] } else { names.split_whitespace().collect() }
 }
 
 /// `r g b`, or `r` for a grey; `None` for spectral curves, CIE XYZ and what is no number.

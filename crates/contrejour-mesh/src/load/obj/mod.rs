@@ -7,6 +7,7 @@ mod materials;
 
 use std::path::Path;
 
+use super::{ReadFile, read_file};
 use crate::normals::position_bits;
 use crate::{LoadError, MeshFile, TriangleMesh};
 
@@ -25,6 +26,11 @@ use materials::Materials;
 /// [`LoadError`] with the line of an index out of range, of a number that cannot be read, and of a coordinate that is
 /// not finite.
 pub fn load_obj(bytes: &[u8], path: &Path) -> Result<MeshFile, LoadError> {
+    load(bytes, path, &read_file)
+}
+
+/// [`load_obj`] with the material files from `read_beside`.
+pub(super) fn load(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<MeshFile, LoadError> {
     if bytes.contains(&0) {
         return Err(LoadError::Malformed {
             path: path.into(),
@@ -35,7 +41,7 @@ pub fn load_obj(bytes: &[u8], path: &Path) -> Result<MeshFile, LoadError> {
     let text = String::from_utf8_lossy(bytes);
     let lines = ObjLines::read(&text, path)?;
     let mut warnings = lines.warnings();
-    let materials = Materials::read(&lines, path, &mut warnings);
+    let materials = Materials::read(&lines, path, read_beside, &mut warnings);
 
     let (models, _) = tobj::load_obj_buf(&mut lines.text.as_bytes(), &tobj::GPU_LOAD_OPTIONS, |_| materials.for_tobj())
         .map_err(|error| LoadError::Malformed {

@@ -137,7 +137,15 @@ fn read_vertices(
             let one = |column: usize| element.properties[column].value.color_one();
             linear_from_srgb(columns.map(|column| (row.numbers[column][0] / one(column)) as f32))
         };
-        mesh.colors.push(color_columns.map_or(TriangleMesh::DEFAULT_COLOR, color));
+        let color = color_columns.map_or(TriangleMesh::DEFAULT_COLOR, color);
+        if !is_finite(color) {
+            return Err(LoadError::Malformed {
+                path: path.into(),
+                place: (row.place)(),
+                problem: "a colour is no number; correct it".into(),
+            });
+        }
+        mesh.colors.push(color);
         Ok(())
     })?;
     Ok(())

@@ -1,0 +1,112 @@
+//! Bytes as a mesh file: refused in one line, or a mesh that all that follows can rely on.
+
+use std::io;
+use std::path::Path;
+
+use contrejour_mesh::{BuildOptions, LoadError, MeshFile, TopologyAwareMesh, TriangleMesh, load_bytes};
+use contrejour_scene::Scene;
+
+use crate::scene_text::check_scene;
+
+/// The formats of mesh files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ with its material library.
+    Obj,
+    /// glTF and GLB, which the first bytes tell apart.
+    Gltf,
+    /// PLY, text and binary.
+    Ply,
+    /// STL, text and binary.
+    Stl,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Obj, Self::Gltf, Self::Ply, Self::Stl];
+
+    fn path(self) -> &'static Path {
+        Path::new(match self {
+            Self::Obj => "any.obj",
+            Self::Gltf => "any.gltf",
+            Self::Ply => "any.ply",
+            Self::Stl => "any.stl",
+        })
+    }
+}
+
+/// Coordinates beyond this leave no room in `f32` for a light and a camera around the mesh: such a scene is refused when
+/// its frame is prepared. It is the largest number of scene files too.
+const REACH: f64 = 1e15;
+
+/// What a file held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Loaded {
+    /// Vertices of all meshes.
+    pub vertices: usize,
+    /// Triangles of all meshes.
+    pub triangles: usize,
+}
+
+/// Loads bytes as a mesh file, builds the topology of its meshes and puts them into a scene; `None` where the file is
+/// refused. No file is opened: each file beside this one is this one again, but for those whose name has `missing`.
+///
+/// # Panics
+///
+/// When a refusal or a warning has more or less than one line, when a mesh is not as its type says, or when it has no
+/// topology or no scene.
+pub fn check_mesh_file(format: Format, bytes: &[u8]) -> Option<Loaded> {
+    let read_beside = |path: &Path| match path.to_string_lossy().contains("missing") {
+        true => Err(LoadError::Read { path: path.into(), source: io::Error::from(io::ErrorKind::NotFound) }),
+        false => Ok(bytes.to_vec()),
+    };
+    let file = match load_bytes(bytes, format.path(), &read_beside) {
+        Ok(file) => file,
+        Err(error) => {
+            assert_one_line(&error.to_string());
+            return None;
+        }
+    };
+    Some(check_loaded(file))
+}
+
+fn check_loaded(file: MeshFile) -> Loaded {
+    file.warnings.iter().for_each(|warning| assert_one_line(warning));
+    for node in &file.nodes {
+        assert!(node.mesh < file.meshes.len(), "a node has mesh {} of {}", node.mesh, file.meshes.len());
+        assert!(node.world_from_object.is_finite(), "a node stands nowhere");
+    }
+    let mut loaded = Loaded::default();
+    for mesh in &file.meshes {
+        check_mesh(mesh);
+        loaded.vertices += mesh.positions.len();
+        loaded.triangles += mesh.triangles.len();
+        let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default());
+        let topology = topology.unwrap_or_else(|error| panic!("a loaded mesh has no topology: {error}"));
+        assert_eq!(topology.faces.len(), mesh.triangles.len());
+    }
+    let is_in_reach = file.bounds_world().is_none_or(|(low, high)| low.abs().max(high.abs()).max_element() < REACH);
+    let scene = Scene::around(file);
+    if is_in_reach {
+        check_scene(&scene);
+    }
+    loaded
+}
+
+fn check_mesh(mesh: &TriangleMesh) {
+    let count = mesh.positions.len();
+    assert_eq!([mesh.normals.len(), mesh.colors.len(), mesh.vertex_numbers.len()], [count; 3]);
+    let is_finite = |vector: &[f32; 3]| vector.iter().all(|number| number.is_finite());
+    assert!(mesh.positions.iter().all(is_finite), "a position is not finite");
+    let is_unit = |normal: &[f32; 3]| (glam::Vec3::from(*normal).length() - 1.0).abs() < 1e-3;
+    assert!(mesh.normals.iter().all(is_unit), "a normal is not of unit length");
+    let is_color = |color: &[f32; 3]| color.iter().all(|channel| (0.0..=1.0).contains(channel));
+    assert!(mesh.colors.iter().all(is_color), "a colour is out of its range");
+    let is_there = |&vertex: &u32| (vertex as usize) < count;
+    assert!(mesh.triangles.as_flattened().iter().all(is_there), "a triangle names a vertex that is not there");
+}
+
+/// What is said to the user is one line, and not empty.
+pub(crate) fn assert_one_line(message: &str) {
+    assert!(!message.is_empty() && !message.contains(['\n', '\r']), "{message:?}");
+}

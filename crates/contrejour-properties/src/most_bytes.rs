@@ -1,0 +1,28 @@
+//! How much memory an input may take, at most, on top of itself.
+
+use crate::{Format, Loaded};
+
+/// Whatever the input: tables, the thread pool's queues, messages.
+const ALWAYS: usize = 1 << 20;
+
+/// Bytes that a loader, the building of topology and a scene may hold at once for the bytes of a file and what it
+/// held; `None` where it was refused.
+pub fn most_bytes_of_mesh_file(format: Format, file_bytes: usize, loaded: Option<Loaded>) -> usize {
+    match (format, loaded) {
+        // A mesh can stand in many nodes, so what a glTF file holds does not follow from its bytes alone.
+        (Format::Gltf, Some(loaded)) => ALWAYS + 512 * file_bytes + 1024 * (loaded.vertices + loaded.triangles),
+        // What 257 numbers a byte become before the file is refused.
+        (Format::Gltf, None) => ALWAYS + 257 * 512 * file_bytes,
+        _ => ALWAYS + 1024 * file_bytes,
+    }
+}
+
+/// Bytes that the reading of a scene may hold at once for the bytes of its text and the triangles of its meshes.
+pub fn most_bytes_of_scene(text_bytes: usize, triangles: Option<usize>) -> usize {
+    ALWAYS + 1024 * text_bytes + 1024 * triangles.unwrap_or(0)
+}
+
+/// Bytes that topology, twin and oracle may hold at once for a mesh.
+pub fn most_bytes_of_silhouette(vertices: usize, triangles: usize) -> usize {
+    ALWAYS + 4096 * (vertices + triangles)
+}

@@ -1,0 +1,68 @@
+//! A text as a scene file: refused in one line with its place, or a scene that all that follows can rely on.
+
+use std::io;
+use std::path::Path;
+
+use contrejour_mesh::{LoadError, MeshFile, TriangleMesh};
+use contrejour_scene::{Scene, SceneError};
+use glam::DVec3;
+
+use crate::mesh_file::assert_one_line;
+
+/// Reads a text as a scene file; `None` where it is refused. No file is opened: each mesh file is one triangle, but
+/// for those whose name has `missing`.
+///
+/// # Panics
+///
+/// When a refusal has more or less than one line or is at no place of the text, or when the scene is not as its type
+/// says.
+pub fn check_scene_text(text: &str) -> Option<usize> {
+    let load = |path: &Path| match path.to_string_lossy().contains("missing") {
+        true => Err(LoadError::Read { path: path.into(), source: io::Error::from(io::ErrorKind::NotFound) }),
+        false => Ok(one_triangle()),
+    };
+    match Scene::from_toml_with(text, Path::new("scenes"), "any.toml", &load) {
+        Ok(scene) => {
+            check_scene(&scene);
+            Some(scene.meshes.iter().map(|mesh| mesh.mesh.triangles.len()).sum())
+        }
+        Err(error) => {
+            assert_one_line(&error.to_string());
+            if let SceneError::InFile { place, .. } = error {
+                let lines = text.split('\n').count();
+                assert!((1..=lines).contains(&place.line), "line {} of {lines}", place.line);
+            }
+            None
+        }
+    }
+}
+
+fn one_triangle() -> MeshFile {
+    let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut mesh = TriangleMesh {
+        colors: vec![TriangleMesh::DEFAULT_COLOR; positions.len()],
+        vertex_numbers: vec![0, 1, 2],
+        triangles: vec![[0, 1, 2]],
+        positions,
+        ..TriangleMesh::default()
+    };
+    mesh.complete_normals();
+    MeshFile::single(mesh, Vec::new())
+}
+
+/// What a frame is made of must be in its range.
+pub(crate) fn check_scene(scene: &Scene) {
+    scene.light.validate().unwrap_or_else(|error| panic!("{error}"));
+    scene.shadow.validate().unwrap_or_else(|error| panic!("{error}"));
+    assert!(scene.size.iter().all(|side| (1..=Scene::MAX_SIDE).contains(side)), "{:?}", scene.size);
+    for color in [scene.ambient, scene.background] {
+        assert!(color.iter().all(|&channel| channel >= 0.0 && channel.is_finite()), "{color:?}");
+    }
+    let camera = &scene.camera;
+    assert!(0.0 < camera.near && camera.near < camera.far && camera.far.is_finite(), "{camera:?}");
+    assert!(camera.clip_from_world(scene.aspect()).is_finite(), "{camera:?}");
+    assert!(camera.up.cross(camera.target - camera.eye) != DVec3::ZERO, "{camera:?}");
+    for mesh in &scene.meshes {
+        assert!(mesh.world_from_object.is_finite(), "{} stands nowhere", mesh.name);
+    }
+}

@@ -1,0 +1,51 @@
+//! The seeds of the fuzz targets, which must be worth starting from.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use contrejour_properties::{Format, check_mesh_file, check_scene_text};
+
+/// Files in a target's folder of seeds, by name.
+fn files(target: &str) -> Vec<PathBuf> {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fuzz/seeds")).join(target);
+    let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("is readable").path()).collect();
+    paths.sort();
+    paths
+}
+
+fn read(path: &PathBuf) -> Vec<u8> {
+    fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn folder(format: Format) -> &'static str {
+    match format {
+        Format::Obj => "obj",
+        Format::Gltf => "gltf",
+        Format::Ply => "ply",
+        Format::Stl => "stl",
+    }
+}
+
+/// Seeds of a mesh format.
+pub fn seeds(format: Format) -> Vec<Vec<u8>> {
+    files(folder(format)).iter().map(read).collect()
+}
+
+/// Seeds of scene files.
+pub fn scene_seeds() -> Vec<String> {
+    let text = |path| String::from_utf8(read(path)).expect("scenes are text");
+    files("scene").iter().map(text).collect()
+}
+
+#[test]
+fn most_seeds_load() {
+    for format in Format::ALL {
+        let seeds = seeds(format);
+        let loaded: Vec<_> = seeds.iter().filter_map(|bytes| check_mesh_file(format, bytes)).collect();
+        assert!(loaded.len() + 1 >= seeds.len() && loaded.len() >= 2, "{format:?}: {loaded:?}");
+        assert!(loaded.iter().all(|loaded| loaded.triangles > 0), "{format:?}: {loaded:?}");
+    }
+    let scenes: Vec<_> = scene_seeds().iter().filter_map(|text| check_scene_text(text)).collect();
+    assert!(scenes.len() >= 2, "{scenes:?}");
+}
