@@ -18,6 +18,11 @@ struct Span {
     end: f32,
 }
 
+struct ImagePoint {
+    ndc: vec2f,
+    q: f32,
+}
+
 @compute @workgroup_size(64)
 fn extrude_edges(
     @builtin(workgroup_id) group: vec3u,
@@ -68,8 +73,8 @@ fn extrude(silhouette: SilhouetteEdge, quad: ptr<function, Quad>) -> bool {
         return false;
     }
     let width = max(
-        smoothie_width(q_of_clip(point_at(depth_span.begin, low_clip, high_clip, delta_clip))),
-        smoothie_width(q_of_clip(point_at(depth_span.end, low_clip, high_clip, delta_clip))),
+        smoothie_width(image_of(point_at(depth_span.begin, low_clip, high_clip, delta_clip)).q),
+        smoothie_width(image_of(point_at(depth_span.end, low_clip, high_clip, delta_clip)).q),
     );
     let span = clip_by_sides(depth_span, low_clip, high_clip, 1.0 + width);
     if !(span.begin < span.end) {
@@ -77,13 +82,13 @@ fn extrude(silhouette: SilhouetteEdge, quad: ptr<function, Quad>) -> bool {
     }
 
     // Extrude away from the blocker.
-    let low_end = point_at(span.begin, low_clip, high_clip, delta_clip);
-    let high_end = point_at(span.end, low_clip, high_clip, delta_clip);
-    let q = vec2f(q_of_clip(low_end), q_of_clip(high_end));
+    let low_end = image_of(point_at(span.begin, low_clip, high_clip, delta_clip));
+    let high_end = image_of(point_at(span.end, low_clip, high_clip, delta_clip));
+    let q = vec2f(low_end.q, high_end.q);
     let blocker_left = silhouette.right == 0u;
     *quad = Quad(
-        low_end.xy / low_end.w,
-        high_end.xy / high_end.w,
+        low_end.ndc,
+        high_end.ndc,
         select(counter_clockwise(direction), clockwise(direction), blocker_left),
         vec2f(smoothie_width(q.x), smoothie_width(q.y)),
         q,
@@ -100,6 +105,15 @@ fn extrude(silhouette: SilhouetteEdge, quad: ptr<function, Quad>) -> bool {
 // The ends themselves where nothing was cut off, so that neighbours share them to the bit.
 fn point_at(t: f32, low: vec4f, high: vec4f, delta: vec4f) -> vec4f {
     return select(select(low + t * delta, high, t == 1.0), low, t == 0.0);
+}
+
+// A point in view but for rounding: the cut end of an edge that is far larger than the view can be anywhere, even in the
+// plane of the light.
+fn image_of(clip: vec4f) -> ImagePoint {
+    let depth = clamp(depth_of_clip(clip), view.near_depth, view.far_depth);
+    let w = select(clip.w, depth, view.perspective == 1u);
+    let most = 1.0 + view.width_max_ndc;
+    return ImagePoint(clamp(clip.xy / w, vec2f(-most), vec2f(most)), q_of_depth(depth));
 }
 
 fn clip_by_depth(span: Span, low: vec4f, high: vec4f) -> Span {

@@ -50,7 +50,3 @@ fn smoothie_width(q: f32) -> f32 {
     let width = view.width_fixed_ndc + view.width_per_q_ndc * (view.q_max - q);
     return clamp(width, view.width_min_ndc, view.width_max_ndc);
 }
-
-fn q_of_clip(clip: vec4f) -> f32 {
-    return q_of_depth(depth_of_clip(clip));
-}

@@ -6,11 +6,11 @@ use contrejour_layout::{
     Caster, CasterLight, Counters, Edge, LightView, OUTLINE_BLOCKER_LEFT, OUTLINE_BLOCKER_RIGHT, OWN_END_HIGH,
     OWN_END_LOW, Quad, SilhouetteEdge,
 };
-use glam::{Vec4, Vec4Swizzles};
+use glam::{Vec2, Vec4, Vec4Swizzles};
 
 use crate::caster_position::scaled_position;
 use crate::image_plane::{clip_from_object, clockwise, counter_clockwise, image_direction};
-use crate::view_depth::{q_of_clip, smoothie_width};
+use crate::view_depth::{depth_of_clip, q_of_depth, smoothie_width};
 
 /// The stage `extrude_edges`: silhouette edges to quads.
 pub struct ExtrudeEdges<'a> {
@@ -74,14 +74,14 @@ impl ExtrudeEdges<'_> {
 
         // Clip by depth first, since the width that widens the frustum depends on it.
         let depth_span = segment.clip_by_depth(Span { begin: 0.0, end: 1.0 })?;
-        let width_at = |t| smoothie_width(self.view, q_of_clip(self.view, segment.at(t)));
+        let width_at = |t| smoothie_width(self.view, self.image_of(segment.at(t)).1);
         let width = width_at(depth_span.begin).max(width_at(depth_span.end));
         let span = segment.clip_by_sides(depth_span, 1.0 + width)?;
 
         // Extrude away from the blocker.
-        let low_end = segment.at(span.begin);
-        let high_end = segment.at(span.end);
-        let q = [q_of_clip(self.view, low_end), q_of_clip(self.view, high_end)];
+        let (low_ndc, low_q) = self.image_of(segment.at(span.begin));
+        let (high_ndc, high_q) = self.image_of(segment.at(span.end));
+        let q = [low_q, high_q];
         let (side, outward) = if silhouette.right == 0 {
             (OUTLINE_BLOCKER_LEFT, clockwise(direction))
         } else {
@@ -90,8 +90,8 @@ impl ExtrudeEdges<'_> {
         let own_low = if span.begin == 0.0 { OWN_END_LOW } else { 0 };
         let own_high = if span.end == 1.0 { OWN_END_HIGH } else { 0 };
         Some(Quad {
-            low_ndc: (low_end.xy() / low_end.w).to_array(),
-            high_ndc: (high_end.xy() / high_end.w).to_array(),
+            low_ndc: low_ndc.to_array(),
+            high_ndc: high_ndc.to_array(),
             outward: outward.to_array(),
             width_ndc: q.map(|q| smoothie_width(self.view, q)),
             q,
@@ -102,6 +102,15 @@ impl ExtrudeEdges<'_> {
             own_ends: own_low | own_high,
             side,
         })
+    }
+
+    /// NDC and q of a point that is in view but for rounding: the cut end of an edge that is far larger than the view can
+    /// be anywhere, even in the plane of the light.
+    fn image_of(&self, clip: Vec4) -> (Vec2, f32) {
+        let depth = depth_of_clip(self.view, clip).max(self.view.near_depth).min(self.view.far_depth);
+        let w = if self.view.perspective == 1 { depth } else { clip.w };
+        let most = Vec2::splat(1.0 + self.view.width_max_ndc);
+        ((clip.xy() / w).max(-most).min(most), q_of_depth(self.view, depth))
     }
 }
 
@@ -261,6 +270,20 @@ mod tests {
             let frame = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Spot(Vec3::ZERO)).frame();
             assert_eq!(frame.counters.silhouette_edges, 3);
             assert_eq!((frame.counters.quads, frame.counters.corners), (0, 0), "at {z}");
+        }
+    }
+
+    #[test]
+    fn the_cut_end_of_a_huge_edge_is_in_view() {
+        // From before the light to far behind it, where floats are up to 512 apart: so the cut is rounded to anywhere.
+        for behind in (0..300).map(|step| 1e6 * 1.03_f32.powi(step)) {
+            let positions = [[-behind, 0.1, behind], [0.2, 0.1, 0.0], [0.1, 0.3, 0.0]];
+            let frame = TestScene::new(&positions, &[[0, 1, 2]], TestLight::Spot(Vec3::new(0.0, 0.0, 5.0))).frame();
+            for quad in &frame.quads {
+                assert!(quad.q.iter().all(|&q| (-1.0..=-1.0 / 9.0).contains(&q)), "{behind}: {quad:?}");
+                let ndc = [quad.low_ndc, quad.high_ndc];
+                assert!(ndc.as_flattened().iter().all(|coordinate| coordinate.abs() <= 2.0), "{behind}: {quad:?}");
+            }
         }
     }
 }

@@ -3,10 +3,6 @@
 use contrejour_layout::LightView;
 use glam::Vec4;
 
-pub(crate) fn q_of_clip(view: &LightView, clip: Vec4) -> f32 {
-    q_of_depth(view, depth_of_clip(view, clip))
-}
-
 /// Smoothie width at a blocker's `q`, in NDC.
 pub(crate) fn smoothie_width(view: &LightView, q: f32) -> f32 {
     let width = view.width_fixed_ndc + view.width_per_q_ndc * (view.q_max - q);
@@ -14,14 +10,14 @@ pub(crate) fn smoothie_width(view: &LightView, q: f32) -> f32 {
     width.max(view.width_min_ndc).min(view.width_max_ndc)
 }
 
-fn depth_of_clip(view: &LightView, clip: Vec4) -> f32 {
+pub(crate) fn depth_of_clip(view: &LightView, clip: Vec4) -> f32 {
     if view.perspective == 1 {
         return clip.w;
     }
     view.near_depth * (1.0 - clip.z) + view.far_depth * clip.z
 }
 
-fn q_of_depth(view: &LightView, depth: f32) -> f32 {
+pub(crate) fn q_of_depth(view: &LightView, depth: f32) -> f32 {
     if view.perspective == 1 {
         return -1.0 / depth;
     }
@@ -34,10 +30,11 @@ mod tests {
 
     #[test]
     fn q_is_linear_on_the_image_plane() {
+        let of_clip = |view: &LightView, clip| q_of_depth(view, depth_of_clip(view, clip));
         let perspective = LightView { perspective: 1, ..Default::default() };
         let orthographic = LightView { near_depth: 2.0, far_depth: 6.0, ..Default::default() };
-        assert_eq!(q_of_clip(&perspective, Vec4::new(0.0, 0.0, 0.3, 4.0)), -0.25);
-        assert_eq!(q_of_clip(&orthographic, Vec4::new(0.0, 0.0, 0.25, 1.0)), 3.0);
+        assert_eq!(of_clip(&perspective, Vec4::new(0.0, 0.0, 0.3, 4.0)), -0.25);
+        assert_eq!(of_clip(&orthographic, Vec4::new(0.0, 0.0, 0.25, 1.0)), 3.0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use contrejour_layout::{BLOCK_SIZE, Caster as CasterRecord, CasterLight, WorkItem};
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_mirror::{FrameInputs, FrameOutputs, run_frame};
-use contrejour_plan::{Light, LightKind, ShadowSettings, View, ViewCounts, caster_light, position_scale, views};
+use contrejour_plan::{Light, LightKind, NearOne, ShadowSettings, View, ViewCounts, caster_light, views};
 use glam::{DMat4, DVec3};
 
 use crate::Caster;
@@ -12,24 +12,29 @@ impl Caster {
     /// All stages, with room for all that the mesh can need.
     pub(crate) fn frame(&self, topology: &TopologyAwareMesh) -> FrameOutputs {
         let view = self.view();
-        let scale = position_scale(topology.bounds_min, topology.bounds_max);
+        let near_one = NearOne::of_box(topology.bounds_min, topology.bounds_max);
         // The view's own light can be another one, where no view looks from this one.
         let light = CasterLight {
             light_object: self.light.map(f32::to_bits),
             mirrored: self.mirrored.into(),
             casts: 1,
-            ..caster_light(&view, &self.world_from_object(), scale)
+            ..caster_light(&view, &self.world_from_object(), &near_one)
         };
         let record = CasterRecord {
             position_stride_words: 3,
             face_count: topology.faces.len() as u32,
             edge_count: topology.candidate_edge_count,
             first_vertex_edge_word: topology.vertex_edge_offsets.len() as u32,
-            position_scale: scale,
+            position_scale: near_one.scale,
+            position_origin: near_one.origin,
             ..CasterRecord::default()
         };
-        let blocks = |count: u32| (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { caster: 0, block }).collect();
-        let [face_items, edge_items]: [Vec<WorkItem>; 2] = [record.face_count, record.edge_count].map(blocks);
+        let blocks = |count: u32| 0..count.div_ceil(BLOCK_SIZE);
+        let planes = topology.face_planes();
+        let face_item = |block| WorkItem { caster: 0, block, by_positions: (!planes.block_fits(block)).into() };
+        let face_items: Vec<_> = blocks(record.face_count).map(face_item).collect();
+        let edge_item = |block| WorkItem { caster: 0, block, by_positions: 0 };
+        let edge_items: Vec<_> = blocks(record.edge_count).map(edge_item).collect();
         let counts = ViewCounts {
             face_items: face_items.len() as u32,
             edge_items: edge_items.len() as u32,
@@ -48,6 +53,7 @@ impl Caster {
             caster_lights: &[light],
             positions: bytemuck::cast_slice(&topology.positions),
             faces: &topology.faces,
+            planes: &planes.planes,
             edges: &topology.edges,
             incidences: &topology.incidences,
             vertex_edges: &vertex_edges,

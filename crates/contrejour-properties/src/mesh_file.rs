@@ -3,8 +3,8 @@
 use std::io;
 use std::path::Path;
 
-use contrejour_mesh::{BuildOptions, LoadError, MeshFile, TopologyAwareMesh, TriangleMesh, load_bytes};
-use contrejour_scene::Scene;
+use contrejour_mesh::{BuildOptions, MeshFile, ReadFileError, TopologyAwareMesh, TriangleMesh, load_bytes};
+use contrejour_scene::{Bounds, Scene};
 
 use crate::scene_text::check_scene;
 
@@ -57,7 +57,7 @@ pub struct Loaded {
 /// topology or no scene.
 pub fn check_mesh_file(format: Format, bytes: &[u8]) -> Option<Loaded> {
     let read_beside = |path: &Path| match path.to_string_lossy().contains("missing") {
-        true => Err(LoadError::Read { path: path.into(), source: io::Error::from(io::ErrorKind::NotFound) }),
+        true => Err(ReadFileError::System { path: path.into(), source: io::ErrorKind::NotFound.into() }.into()),
         false => Ok(bytes.to_vec()),
     };
     let file = match load_bytes(bytes, format.path(), &read_beside) {
@@ -85,9 +85,9 @@ fn check_loaded(file: MeshFile) -> Loaded {
         let topology = topology.unwrap_or_else(|error| panic!("a loaded mesh has no topology: {error}"));
         assert_eq!(topology.faces.len(), mesh.triangles.len());
     }
-    let is_in_reach = file.bounds_world().is_none_or(|(low, high)| low.abs().max(high.abs()).max_element() < REACH);
     let scene = Scene::around(file);
-    if is_in_reach {
+    let Bounds { min, max } = scene.bounds();
+    if min.abs().max(max.abs()).max_element() < REACH {
         check_scene(&scene);
     }
     loaded

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use contrejour_mesh::{LoadError, MeshFile, TriangleMesh};
+use contrejour_mesh::{MeshFile, ReadFileError, TriangleMesh};
 use contrejour_scene::{Scene, SceneError};
 use glam::DVec3;
 
@@ -18,7 +18,7 @@ use crate::mesh_file::assert_one_line;
 /// says.
 pub fn check_scene_text(text: &str) -> Option<usize> {
     let load = |path: &Path| match path.to_string_lossy().contains("missing") {
-        true => Err(LoadError::Read { path: path.into(), source: io::Error::from(io::ErrorKind::NotFound) }),
+        true => Err(ReadFileError::System { path: path.into(), source: io::ErrorKind::NotFound.into() }.into()),
         false => Ok(one_triangle()),
     };
     match Scene::from_toml_with(text, Path::new("scenes"), "any.toml", &load) {

@@ -34,7 +34,7 @@ pub use stl::load_stl;
 /// Any [`LoadError`]; the file is either loaded completely or refused.
 pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
     let format = format_of(path)?;
-    load_format(format, &read_file(path)?, path, &read_file)
+    load_checked(format, &read_file(path)?, path, &read_file)
 }
 
 /// Gives the bytes of a file that a mesh file names: a material library, or a buffer of a glTF file.
@@ -50,7 +50,7 @@ pub type ReadFile<'a> = dyn Fn(&Path) -> Result<Vec<u8>, LoadError> + 'a;
 ///
 /// Any [`LoadError`]; a buffer that `read_beside` refuses is one, a material library is a warning.
 pub fn load_bytes(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<MeshFile, LoadError> {
-    load_format(format_of(path)?, bytes, path, read_beside)
+    load_checked(format_of(path)?, bytes, path, read_beside)
 }
 
 /// The cargo feature of the format that a path's extension names.
@@ -66,30 +66,39 @@ fn format_of(path: &Path) -> Result<&'static str, LoadError> {
     }
 }
 
+fn load_checked(
+    format: &'static str,
+    bytes: &[u8],
+    path: &Path,
+    read_beside: &ReadFile,
+) -> Result<MeshFile, LoadError> {
+    if bytes.is_empty() {
+        return Err(LoadError::Empty { path: path.into() });
+    }
+    let mut file = load_format(format, bytes, path, read_beside)?;
+    if file.triangle_count() == 0 {
+        file.warnings.push(format!("{}: there is no face in the file; export the mesh with its faces", path.display()));
+    }
+    Ok(file)
+}
+
 /// Loads from bytes, where the loader of the format is built in.
 #[cfg_attr(
     not(any(feature = "obj", feature = "gltf")),
     expect(unused_variables, reason = "no loader reads the files beside")
 )]
 fn load_format(format: &'static str, bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<MeshFile, LoadError> {
-    if bytes.is_empty() {
-        return Err(LoadError::Empty { path: path.into() });
-    }
-    let mut file = match format {
+    match format {
         #[cfg(feature = "obj")]
-        "obj" => obj::load(bytes, path, read_beside)?,
+        "obj" => obj::load(bytes, path, read_beside),
         #[cfg(feature = "gltf")]
-        "gltf" => gltf::load(bytes, path, read_beside)?,
+        "gltf" => gltf::load(bytes, path, read_beside),
         #[cfg(feature = "ply")]
-        "ply" => load_ply(bytes, path)?,
+        "ply" => load_ply(bytes, path),
         #[cfg(feature = "stl")]
-        "stl" => load_stl(bytes, path)?,
-        feature => return Err(LoadError::FormatDisabled { path: path.into(), feature }),
-    };
-    if file.triangle_count() == 0 {
-        file.warnings.push(format!("{}: there is no face in the file; export the mesh with its faces", path.display()));
+        "stl" => load_stl(bytes, path),
+        feature => Err(LoadError::FormatDisabled { path: path.into(), feature }),
     }
-    Ok(file)
 }
 
 /// The most bytes of a mesh file, and of each file that it names: 2 GiB.

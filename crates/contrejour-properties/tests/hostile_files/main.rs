@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use contrejour_mesh::{LoadError, load_bytes};
+use contrejour_mesh::{LoadError, ReadFileError, load_bytes};
 use contrejour_properties::{Format, check_mesh_file, check_scene_text, most_bytes_of_mesh_file, most_bytes_of_scene};
 use peak_alloc::PeakAlloc;
 
@@ -47,7 +47,7 @@ fn loads(what: &str, format: Format, bytes: &[u8]) -> bool {
 fn refusal(what: &str, format: Format, bytes: &[u8]) -> LoadError {
     assert!(!loads(what, format, bytes), "{what} loads");
     let name = format!("hostile.{format:?}");
-    let no_file = |path: &Path| Err(LoadError::NotAFile { path: path.into() });
+    let no_file = |path: &Path| Err(ReadFileError::NotAFile { path: path.into() }.into());
     load_bytes(bytes, Path::new(&name), &no_file).err().unwrap_or_else(|| panic!("{what} loads without its files"))
 }
 
