@@ -1,15 +1,19 @@
 //! Whether the device is still there. Its lost callback is the caller's, and what is created on a lost device fails
 //! without an error, so it is asked.
 
+use std::future::Future;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::pin::pin;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
+use std::task::{Context, Poll, Waker};
 
 use crate::error::DeviceError;
 
 const HERE: u8 = 0;
 const ASKED: u8 = 1;
-const LOST: u8 = 2;
+const ANSWERED: u8 = 2;
+const LOST: u8 = 3;
 
 /// A small buffer that is asked to be mapped again and again: a lost device refuses that at once. On the web it does so
 /// later and a loss stays unknown here: there the caller's lost callback tells.
@@ -32,24 +36,34 @@ impl Heartbeat {
 
     /// Runs the callbacks of what has arrived, waits for nothing, and asks the device.
     pub fn check(&self, device: &wgpu::Device) -> Result<(), DeviceError> {
-        if self.is(LOST) {
-            return Err(DeviceError::Lost);
+        if !self.is(LOST) {
+            poll(device, wgpu::PollType::Poll).inspect_err(|_| self.state.store(LOST, Ordering::Release))?;
         }
-        poll(device, wgpu::PollType::Poll).inspect_err(|_| self.state.store(LOST, Ordering::Release))?;
+        // Unmapped only after the answer: another thread that polls may be about to map the buffer.
+        if self.is(ANSWERED) {
+            let state = if self.can_unmap(device) { HERE } else { LOST };
+            self.state.store(state, Ordering::Release);
+        }
+        if self.is(HERE) {
+            self.ask();
+        }
+        if self.is(LOST) { Err(DeviceError::Lost) } else { Ok(()) }
+    }
+
+    /// Unmaps the buffer; false where it has gone with its device.
+    fn can_unmap(&self, device: &wgpu::Device) -> bool {
+        let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        self.buffer.unmap();
+        let error = pin!(scope.pop()).poll(&mut Context::from_waker(Waker::noop()));
+        !matches!(error, Poll::Ready(Some(_)))
+    }
+
+    fn ask(&self) {
         self.state.store(ASKED, Ordering::Release);
         let state = Arc::clone(&self.state);
         self.buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {
-            // Later the answer is that the question was taken back.
-            if mapped.is_err() {
-                let _ = state.compare_exchange(ASKED, LOST, Ordering::AcqRel, Ordering::Acquire);
-            }
+            state.store(if mapped.is_ok() { ANSWERED } else { LOST }, Ordering::Release);
         });
-        if self.is(LOST) {
-            return Err(DeviceError::Lost);
-        }
-        self.state.store(HERE, Ordering::Release);
-        self.buffer.unmap();
-        Ok(())
     }
 
     fn is(&self, state: u8) -> bool {

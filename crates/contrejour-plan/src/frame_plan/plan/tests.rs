@@ -158,7 +158,7 @@ fn sizes_follow_the_counts() {
     assert_eq!(bytes(&plan, BufferKind::Edges), Some(12 * 16));
     assert_eq!(bytes(&plan, BufferKind::Incidences), Some(4), "never empty");
     assert_eq!(bytes(&plan, BufferKind::VertexEdges), Some((9 + 2 * 24) * 4));
-    assert_eq!(bytes(&plan, BufferKind::Casters), Some(2 * 48));
+    assert_eq!(bytes(&plan, BufferKind::Casters), Some(2 * 64));
     assert_eq!(bytes(&plan, BufferKind::FaceItems), Some(2 * 12));
     assert_eq!(bytes(&plan, BufferKind::EdgeItems), Some(2 * 12));
     assert_eq!(bytes(&plan, BufferKind::Lit), Some(2 * 2 * 4));
