@@ -42,6 +42,6 @@ fn after_help() -> String {
 
 impl StabilityArguments {
     pub fn effort(&self) -> Effort {
-        Effort { extent: if self.quick { Extent::Quick } else { Extent::Full }, seed: self.seed }
+        Effort::new(if self.quick { Extent::Quick } else { Extent::Full }, self.seed)
     }
 }

@@ -107,3 +107,5 @@ pub use merge::{MergeError, merge};
 pub use options::{FULL_SIZES, QUICK_SCENES, QUICK_SIZES, RunOptions, default_sizes};
 pub use shard::{NoShard, Shard};
 pub use subject::NamedScene;
+pub(crate) use subject::Subject;
+pub(crate) use truth::is_fair;

@@ -98,6 +98,6 @@ impl SceneTruth {
 
 /// A technique sees one point of the light and calls a side that is averted from it dark; the truth sees the part of
 /// the light above the receiver's plane. They mean the same where that is all of it.
-pub(super) fn is_fair(answer: &Visibility) -> bool {
+pub(crate) fn is_fair(answer: &Visibility) -> bool {
     answer.facing == Facing::Towards
 }

@@ -2,6 +2,7 @@
 
 use contrejour_oracle::GapSearch;
 use contrejour_plan::{Light, ShadowSettings};
+use contrejour_scene::Camera;
 use glam::DMat4;
 
 /// Meshes, a light and settings that go through the pipeline together.
@@ -19,6 +20,8 @@ pub struct Case {
     pub settings: ShadowSettings,
     /// How gaps are looked for; none where the definition leaves some, which `degrades` then explains.
     pub gap_search: Option<GapSearch>,
+    /// From where its visibility is looked at; none where that is not compared with the truth.
+    pub seen_from: Option<Camera>,
     /// Why the definition does not hold here, in a sentence; empty where it does.
     pub degrades: String,
 }
@@ -44,6 +47,7 @@ impl Case {
             light,
             settings: ShadowSettings { map_size: MAP_SIZE, ..ShadowSettings::default() },
             gap_search: Some(GapSearch { directions: 180, max_vertices: 300, ..GapSearch::default() }),
+            seen_from: None,
             degrades: String::new(),
         }
     }

@@ -1,5 +1,7 @@
 //! How much is tried.
 
+use contrejour_plan::DeviceFacts;
+
 use crate::report::Extent;
 
 /// How much is tried, and with which random numbers.
@@ -9,9 +11,16 @@ pub struct Effort {
     pub extent: Extent,
     /// Seed of everything random.
     pub seed: u64,
+    /// Texels along the side of the device's largest map, which a [run](super::run) fills in. Default: WebGPU's 8192.
+    pub largest_map: u32,
 }
 
 impl Effort {
+    /// For a device of which nothing is known.
+    pub fn new(extent: Extent, seed: u64) -> Self {
+        Self { extent, seed, largest_map: DeviceFacts::default().max_texture_dimension_2d }
+    }
+
     /// Powers of ten with these exponents, both ends included: every `step`, or just ends and middle.
     pub fn powers_of_ten(&self, from: i32, to: i32, step: i32) -> Vec<(String, f64)> {
         let exponents: Vec<i32> = match self.extent {

@@ -8,6 +8,7 @@ use contrejour_render::{DeviceFault, ReadError};
 use super::family::UnknownFamily;
 use super::files::WriteError;
 use crate::metrics::MetricError;
+use crate::run::RunError;
 
 /// Why a run stops.
 #[derive(Debug, thiserror::Error)]
@@ -45,9 +46,21 @@ pub enum CaseError {
     /// The lists never became large enough.
     #[error("the frame still misses quads or corners after {0} repetitions")]
     Incomplete(usize),
-    /// The clock went wrong.
+    /// A clock went wrong, or a visibility is none.
     #[error(transparent)]
     Metric(#[from] MetricError),
+    /// The case can't be looked at.
+    #[error(transparent)]
+    Sight(Box<RunError>),
+    /// What was seen can't be kept.
+    #[error("a picture can't be written as PNG: {0}")]
+    Picture(#[from] image::ImageError),
+}
+
+impl From<RunError> for CaseError {
+    fn from(error: RunError) -> Self {
+        Self::Sight(Box::new(error))
+    }
 }
 
 /// What the library refuses, with a type and a remedy: a result, and no failure.

@@ -51,7 +51,7 @@ mod tests {
     fn names_and_parameters_tell_families_and_rows_apart() {
         for (index, family) in FAMILIES.iter().enumerate() {
             assert!(FAMILIES[..index].iter().all(|other| other.name != family.name), "{}", family.name);
-            let cases = (family.cases)(&Effort { extent: Extent::Quick, seed: 1 });
+            let cases = (family.cases)(&Effort::new(Extent::Quick, 1));
             for (index, case) in cases.iter().enumerate() {
                 assert!(
                     cases[..index].iter().all(|other| other.parameter != case.parameter),

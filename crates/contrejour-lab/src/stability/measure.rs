@@ -16,6 +16,7 @@ use super::device::{DeviceFrame, DeviceMesh};
 use super::error::{CaseError, Ended, Refusal};
 use super::family::Family;
 use super::row::{FacingTimes, Row};
+use super::sight::look;
 use crate::mirror_frame::MirrorFrame;
 
 /// Faces up to which the silhouette itself is compared, and not only its faces and that it is closed: the oracle keeps
@@ -106,6 +107,13 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
         row.gaps = gaps.reduce(u64::max).map(|gaps| gaps + missing);
     }
     explain(row, &device.shadows);
+    if let Some(camera) = case.seen_from
+        && let Some(sight) = look(gpu, case, camera)?
+    {
+        row.visibility_error = sight.visibility_error;
+        row.non_finite = row.non_finite.map(|count| count + sight.non_finite);
+        row.pictures = Some(sight.pictures);
+    }
     Ok(())
 }
 

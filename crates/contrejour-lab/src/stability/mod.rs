@@ -17,8 +17,10 @@ mod lights;
 mod measure;
 mod meshes;
 mod page;
+mod plates;
 mod row;
 mod run;
+mod sight;
 
 pub use case::{Case, CaseMesh};
 pub use effort::Effort;

@@ -131,9 +131,30 @@ fn family(family: &FamilyRows) -> Result<Markup, PageError> {
                     @for (title, svg) in &plots { figure { figcaption { strong { (title) } } (PreEscaped(svg)) } }
                 }
             }
+            (pictures(family))
             (boxed(family.name, &[], head, body))
         }
     })
+}
+
+/// What is seen of each case that is looked at.
+fn pictures(family: &FamilyRows) -> Markup {
+    let seen: Vec<_> = family.rows.iter().filter_map(|row| Some((row, row.pictures.as_ref()?))).collect();
+    html! {
+        @if !seen.is_empty() {
+            p.lead { "How visible the light is: above in truth, below by the technique." }
+            div.strip {
+                @for (row, pictures) in seen {
+                    figure {
+                        @for (address, whose) in pictures.iter().zip(["in truth", "by the technique"]) {
+                            img src=(address) alt={ "Visibility " (whose) ", " (family.name) " at " (row.parameter) } loading="lazy";
+                        }
+                        figcaption { strong { (row.parameter) } (row.degrades) }
+                    }
+                }
+            }
+        }
+    }
 }
 
 fn family_plots(family: &FamilyRows) -> [(&'static str, Plot); 3] {
@@ -210,11 +231,15 @@ fn columns() -> Markup {
         ),
         (
             "non_finite",
-            "infinities and NaNs in all floats of quads, corners, light records and every texel of every map, and in \
-             the twin's quads and corners",
+            "infinities and NaNs in all floats of quads, corners, light records and every texel of every map, in the \
+             twin's quads and corners, and in visibility and shaded picture of what is looked at",
         ),
         ("width_error", "largest difference of a smoothie's width at an end or corner from t(b), as a share of t(b)"),
-        ("visibility_error", "root of the mean squared difference from the ray-traced visibility"),
+        (
+            "visibility_error",
+            "root of the mean squared difference from the ray-traced visibility, over the points of the picture that lie in \
+             the light's maps and have the whole light above their plane",
+        ),
         ("time_ms", "from submission of a whole frame to its completion, median of three, in milliseconds"),
         ("degrades", "why the definition does not hold here, or what the library refuses"),
     ];

@@ -37,8 +37,8 @@ pub struct Row {
     /// Points beside outline vertices that neither a blocker nor a smoothie covers, of the device or of its twin, and
     /// outline edges in view that either gave no quad.
     pub gaps: Option<u64>,
-    /// Numbers that are infinite or none, in every float of the buffers and texels that the frame leaves and in what the
-    /// twin leaves.
+    /// Numbers that are infinite or none, in every float of the buffers and texels that the frame leaves, in what the twin
+    /// leaves, and in the visibility and the shaded picture of what is looked at.
     pub non_finite: Option<u64>,
     /// The largest difference between a smoothie's width and its definition, as a share of the defined width.
     pub width_error: Option<f64>,
@@ -51,6 +51,9 @@ pub struct Row {
     /// Where the case is along the axis of its family's plots.
     #[serde(skip)]
     pub at: f64,
+    /// What is seen: visibility in truth and by the technique, as addresses that hold PNG pictures.
+    #[serde(skip)]
+    pub pictures: Option<[String; 2]>,
     /// How long it takes to find the lit faces.
     #[serde(skip)]
     pub facing: Option<FacingTimes>,

@@ -76,9 +76,10 @@ pub struct FamilyRows {
 /// A name that no family has, a device that fails, a folder that can't be written to.
 pub fn run(gpu: &Gpu, options: &Options, tell: &dyn Fn(&Event)) -> Result<Stability, StabilityError> {
     let asked = families(&options.families)?;
+    let effort = Effort { largest_map: gpu.facts().max_texture_dimension_2d, ..options.effort };
     let mut found = Stability { header: header(gpu, options), families: Vec::new() };
     for family in &asked {
-        found.families.push(try_family(gpu, family, &options.effort, tell)?);
+        found.families.push(try_family(gpu, family, &effort, tell)?);
     }
     found.write(&options.folder)?;
     Ok(found)

@@ -1,16 +1,23 @@
 //! The families, a file a subject.
 
 mod broken;
+mod cone_angles;
+mod contact;
 mod counts;
+mod far_plane;
+mod intensity;
 mod light_places;
+mod map_sizes;
+mod overlaps;
 mod projections;
 mod shapes;
 mod sizes;
+mod wide_smoothies;
 
 use super::family::Family;
 
 /// All families, in the order of the page.
-pub const FAMILIES: [Family; 20] = [
+pub const FAMILIES: [Family; 27] = [
     sizes::SCALE,
     sizes::DISTANCE,
     shapes::SLIVERS,
@@ -31,4 +38,11 @@ pub const FAMILIES: [Family; 20] = [
     counts::TEN_MILLION,
     broken::BROKEN,
     broken::FEW,
+    contact::CONTACT,
+    far_plane::FAR_PLANE,
+    wide_smoothies::WIDE_SMOOTHIES,
+    map_sizes::MAP_SIZES,
+    cone_angles::CONE_ANGLES,
+    overlaps::OVERLAPS,
+    intensity::INTENSITY,
 ];

@@ -1,0 +1,68 @@
+//! Cones from a needle to all that a plane can show.
+
+use contrejour_plan::{LightKind, views};
+use glam::DVec3;
+
+use super::super::case::{Case, CaseMesh};
+use super::super::effort::Effort;
+use super::super::family::Family;
+use super::super::plates::{HEIGHT, LAMP, aside, lamp, plate_over_floor};
+use crate::report::Scale;
+
+pub(super) const CONE_ANGLES: Family = Family {
+    name: "cone-angles",
+    stresses: "The cone of a spot over the corner of a plate opens from a needle to nearly half of all directions.",
+    parameter: "tangent of half the cone",
+    scale: Scale::Log,
+    cases,
+};
+
+/// Degrees that a user may try, and what is left to 180.
+const WIDE: [f64; 10] = [1.0, 10.0, 60.0, 120.0, 170.0, 179.0, 179.9, 179.99, 179.9999, 180.0];
+
+fn cases(effort: &Effort) -> Vec<Case> {
+    let narrow =
+        effort.powers_of_ten(-37, -3, 2).into_iter().map(|(name, degrees)| (format!("{name} degrees"), degrees));
+    let wide = WIDE.into_iter().map(|degrees| (format!("{degrees} degrees"), degrees));
+    narrow.chain(wide).map(|(name, degrees)| case(name, degrees.to_radians())).collect()
+}
+
+fn case(name: String, cone: f64) -> Case {
+    let mut light = lamp(0.05);
+    if let LightKind::Spot { cone_angle, .. } = &mut light.kind {
+        *cone_angle = cone;
+    }
+    let tangent = (0.5 * cone).tan();
+    let mut case = plate_over_floor(name, tangent, HEIGHT, light);
+    // The plate's corner lies on the axis, so that the narrowest cone sees both its sides.
+    case.meshes[0] = at_corner(&case.meshes[0]);
+    let shown = (2.0 * LAMP * tangent).min(4.0);
+    let mut camera = aside();
+    camera.target = DVec3::ZERO;
+    camera.fov_y = 2.0 * (0.5 * shown / camera.eye.length()).atan();
+    case.seen_from = Some(camera);
+    case.degrades = degrades(&case);
+    case
+}
+
+fn at_corner(mesh: &CaseMesh) -> CaseMesh {
+    let corner = mesh.positions[0];
+    let moved = |position: &[f32; 3]| [position[0] - corner[0], position[1], position[2] - corner[2]];
+    CaseMesh::new(mesh.positions.iter().map(moved).collect(), mesh.triangles.clone())
+}
+
+fn degrades(case: &Case) -> String {
+    let Ok(views) = views(&case.light) else { return String::new() };
+    let view = &views[0];
+    let reasons = [
+        (
+            view.light_size / (LAMP - HEIGHT) > 2.0,
+            "the cone sees less than the smoothie, whose width is held to the map's side",
+        ),
+        (
+            view.texel_world(case.settings.map_size) * LAMP > 0.1 * HEIGHT,
+            "a texel is larger than a tenth of the plate's height: its depth bias swallows the shadow",
+        ),
+    ];
+    reasons.iter().filter(|(applies, _)| *applies).map(|(_, reason)| *reason).collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,83 @@
+//! A plate over a floor, both across the light's axis, looked at from aside: every depth is even, so that truth and
+//! definitions are easy to say.
+
+use contrejour_plan::{Light, LightKind};
+use contrejour_scene::Camera;
+use glam::DVec3;
+
+use super::case::{Case, CaseMesh};
+
+/// Height of the lamp over the floor.
+pub(super) const LAMP: f64 = 6.0;
+
+/// Full opening angle of the lamp's cone. Unit: radians.
+pub(super) const CONE: f64 = 0.9;
+
+/// Half the side of the square that parallel light shadows.
+pub(super) const HALF_EXTENT: f64 = 2.9;
+
+/// Half the side of the plate.
+pub(super) const PLATE: f64 = 0.6;
+
+/// Half the side of the floor.
+const FLOOR: f64 = 2.5;
+
+/// Height of the plate where a family does not vary it.
+pub(super) const HEIGHT: f64 = 1.5;
+
+/// The plate at a height over the floor.
+pub(super) fn plate_over_floor(parameter: String, at: f64, height: f64, light: Light) -> Case {
+    let mut case = Case::new(parameter, at, sheet(PLATE, height), light);
+    case.meshes.push(sheet(FLOOR, 0.0));
+    case.seen_from = Some(aside());
+    case
+}
+
+/// A camera that sees plate, floor and shadow.
+pub(super) fn aside() -> Camera {
+    Camera {
+        eye: DVec3::new(2.5, 3.2, 3.6),
+        target: DVec3::new(0.1, 0.2, 0.0),
+        up: DVec3::Y,
+        fov_y: 0.73,
+        near: 0.1,
+        far: 30.0,
+    }
+}
+
+/// A lamp over the middle with a disk of a radius.
+pub(super) fn lamp(radius: f64) -> Light {
+    let kind = LightKind::Spot {
+        position: DVec3::new(0.0, LAMP, 0.0),
+        target: DVec3::ZERO,
+        cone_angle: CONE,
+        radius,
+        near: 1.0,
+        far: 8.0,
+    };
+    Light { kind, color: [1.0; 3] }
+}
+
+/// Parallel light from above with an angular radius.
+pub(super) fn sky(angular_radius: f64) -> Light {
+    let kind = LightKind::Directional {
+        towards_light: DVec3::Y,
+        center: DVec3::ZERO,
+        half_extent: HALF_EXTENT,
+        half_depth: LAMP,
+        angular_radius,
+    };
+    Light { kind, color: [1.0; 3] }
+}
+
+/// Both, with what the table calls them; penumbrae are about as wide.
+pub(super) fn lamp_and_sky() -> [(&'static str, Light); 2] {
+    [("spot", lamp(0.3)), ("parallel", sky(0.05))]
+}
+
+/// Two triangles that face upwards.
+pub(super) fn sheet(half: f64, height: f64) -> CaseMesh {
+    let corner = |x: f64, z: f64| DVec3::new(half * x, height, half * z).as_vec3().to_array();
+    let positions = vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)];
+    CaseMesh::new(positions, vec![[0, 1, 2], [0, 2, 3]])
+}
