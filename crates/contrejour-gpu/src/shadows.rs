@@ -345,12 +345,15 @@ impl Shadows {
             self.pool.fill_positions(|offset, data| write((BufferKind::Positions, 0), offset, data));
         }
         // Where nobody reads planes, their buffer has no room for them.
-        let lacks_planes =
-            draft.plan.reason(&Omitted::FacePlanes).is_some() || !draft.plan.has_stage(Stage::ClassifyFaces);
+        let without_planes =
+            |plan: &FramePlan| plan.reason(&Omitted::FacePlanes).is_some() || !plan.has_stage(Stage::ClassifyFaces);
+        let lacks_planes = without_planes(&draft.plan);
+        let lacked_planes = self.plan.as_ref().is_none_or(without_planes);
         let old_pages = self.plan.as_ref().map_or(&[][..], |plan| &plan.pages);
         for (page, index) in draft.plan.pages.iter().zip(0..) {
             let holds_others = old_pages.get(index).is_none_or(|old| old.pieces != page.pieces);
-            let has_new_planes = holds_others || made.buffers.contains(&(BufferKind::Planes, index));
+            // The buffer of one face is as large as one without planes.
+            let has_new_planes = lacked_planes || holds_others || made.buffers.contains(&(BufferKind::Planes, index));
             if has_new_planes && !lacks_planes {
                 self.pool.fill_planes(page, |offset, data| write((BufferKind::Planes, index), offset, data));
             }

@@ -3,10 +3,13 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_mesh::{BuildOptions, Motion, TopologyAwareMesh};
+use contrejour_plan::{BufferKind, Outputs};
 use contrejour_tests::exhaust::{Exhaust, OwnPositions};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
+use contrejour_tests::lights::point;
 use contrejour_tests::many_lights::{adversarial_lights, random_lights};
 use contrejour_tests::meshes::{TestPart, shapes, shared_named};
 use contrejour_tests::random::Random;
@@ -39,7 +42,10 @@ const FILES: [&str; 4] =
     ["animated/RiggedFigure.glb", "closed/Suzanne/Suzanne.gltf", "nasty/hollowcube.obj", "nasty/Offset1.obj"];
 
 pub fn trials() -> Vec<Trial> {
-    vec![gpu_trial("own_positions::silhouettes_are_exact_where_the_device_moves_vertices", are_exact)]
+    vec![
+        gpu_trial("own_positions::silhouettes_are_exact_where_the_device_moves_vertices", are_exact),
+        gpu_trial("own_positions::planes_come_with_the_positions_of_the_mesh", planes_come_with_the_mesh),
+    ]
 }
 
 fn are_exact(gpu: &Gpu) -> Outcome {
@@ -118,4 +124,35 @@ fn skin_pipeline(gpu: &Gpu) -> wgpu::ComputePipeline {
         compilation_options: Default::default(),
         cache: None,
     })
+}
+
+/// A face turns its back on the light while the caller moves it. The buffer of its plane is as large as one without.
+fn planes_come_with_the_mesh(gpu: &Gpu) -> Outcome {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f32]];
+    let options = BuildOptions { motion: Motion::Deforming, ..Default::default() };
+    let topology = TopologyAwareMesh::build(&corners, &[[0, 1, 2]], &options).map_err(|error| error.to_string())?;
+    let turned = [corners[0], corners[2], corners[1]];
+    let buffer = gpu.upload("turned", bytemuck::cast_slice(&turned), wgpu::BufferUsages::STORAGE);
+    let shadow_options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
+    let mut shadows = Shadows::new(&gpu.device, &shadow_options).map_err(|error| error.to_string())?;
+    let mesh = shadows.add_mesh(Arc::new(topology)).map_err(|error| error.to_string())?;
+    let light = point(DVec3::new(0.1, 0.2, 4.0), DVec3::ZERO, 1.0);
+    let live = Positions::InBuffer { buffer: &buffer, offset: 0, stride: 12 };
+    for (positions, expected) in [(live, 0_u32), (Positions::OfMesh, 1), (live, 0), (Positions::OfMesh, 1)] {
+        let casters = [CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions }];
+        let frame = FrameInput { light: &light, casters: &casters };
+        let waiting = gpu.waiting();
+        shadows.prepare(&gpu.device, &gpu.queue, &frame).map_err(|error| error.to_string())?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        shadows.encode(&mut encoder, &mut Untimed);
+        gpu.queue.submit([encoder.finish()]);
+        shadows.wait_for_counters(&gpu.device).map_err(|error| error.to_string())?;
+        drop(waiting);
+        let lit = shadows.buffer(BufferKind::Lit).ok_or("a frame with a face has lit bits")?;
+        let found: u32 = gpu.read_back(lit, 1)[0];
+        if found != expected {
+            return Err(format!("lit bits are {found}, expected {expected} with {positions:?}"));
+        }
+    }
+    Ok(())
 }
