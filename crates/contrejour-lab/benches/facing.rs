@@ -5,7 +5,7 @@
 //! Bare is a stored plane and one dot product a face, its bits written to the same words; of several forms the fastest
 //! counts. Times are from submission to completion, less those of empty dispatches of the same shape; all take turns, and
 //! the least of each are compared, since whatever else the machine does only adds. Software devices compute on this
-//! process's threads: there it is the time that these ran, on all cores together, where the system tells.
+//! process's threads: there it is the time that these ran, on all cores together.
 //!
 //! The column `first` is `classify_faces` alone, `all` is every stage up to `resolve_faces`; bars are for `all`.
 //! `../shared/meshes` beside the checkout, or the folder that `CONTREJOUR_MESHES` names, has the mechanical parts.
@@ -20,6 +20,7 @@ use contrejour_layout::Counters;
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, load};
 use contrejour_plan::{BufferKind, Light, LightKind, Outputs, views};
 use contrejour_render::Gpu;
+use cpu_time::ProcessTime;
 use glam::{DMat4, DVec3};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
@@ -320,25 +321,11 @@ impl Bare {
 
 /// From submission to completion.
 fn time(gpu: &Gpu, commands: wgpu::CommandBuffer) -> Duration {
-    let (clock, busy) = (Instant::now(), busy());
+    let (clock, threads) = (Instant::now(), ProcessTime::now());
     let submission = gpu.queue.submit([commands]);
     let wait = wgpu::PollType::Wait { submission_index: Some(submission), timeout: None };
     gpu.device.poll(wait).expect("the device works");
-    let time = clock.elapsed();
-    match (busy, self::busy()) {
-        (Some(before), Some(after)) if gpu.is_software() => after.saturating_sub(before),
-        _ => time,
-    }
-}
-
-/// How long this process's threads have run so far, on Linux: the first number of their `schedstat`.
-fn busy() -> Option<Duration> {
-    let mut sum = Duration::ZERO;
-    for thread in std::fs::read_dir("/proc/self/task").ok()? {
-        let text = std::fs::read_to_string(thread.ok()?.path().join("schedstat")).ok()?;
-        sum += Duration::from_nanos(text.split_whitespace().next()?.parse().ok()?);
-    }
-    Some(sum)
+    if gpu.is_software() { threads.elapsed() } else { clock.elapsed() }
 }
 
 fn point(position: DVec3) -> Light {
