@@ -1,10 +1,26 @@
 //! The CPU twins of the stages on a frame's buffers.
 
 use contrejour_mirror as mirror;
+use contrejour_plan::Stage;
 
 use crate::frame::Frame;
 
 impl Frame {
+    /// Runs the CPU twins of all stages from `begin` on and before `end`, in the library's order.
+    ///
+    /// # Panics
+    ///
+    /// When no stage has one of the names.
+    pub fn run_mirrors(&mut self, begin: &str, end: &str) {
+        let place = |name: &str| {
+            let found = Stage::ALL.iter().position(|stage| stage.name() == name);
+            found.unwrap_or_else(|| panic!("there is no stage {name}"))
+        };
+        for stage in &Stage::ALL[place(begin)..place(end)] {
+            self.run_mirror(stage.name());
+        }
+    }
+
     /// Runs the CPU twin of a stage.
     ///
     /// # Panics

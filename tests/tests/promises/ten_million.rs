@@ -57,21 +57,9 @@ fn are_exact_and_whole(gpu: &Gpu) -> Outcome {
     say(&format!("{} silhouette edges are exact and closed", silhouettes.len()));
 
     let mut twin = Frame::new(&mesh.parts, &light, &ShadowSettings::default());
-    for stage in [
-        "classify_faces",
-        "write_recheck_args",
-        "recheck_faces",
-        "write_refine_args",
-        "refine_faces",
-        "resolve_faces",
-        "detect_silhouette",
-    ] {
-        twin.run_mirror(stage);
-    }
+    twin.run_mirrors("classify_faces", "write_extrude_args");
     compare_records("silhouette edge", &twin.silhouettes[..silhouettes.len()], &silhouettes, 0.0)?;
-    for stage in ["write_extrude_args", "extrude_edges", "build_corners"] {
-        twin.run_mirror(stage);
-    }
+    twin.run_mirrors("write_extrude_args", "write_draw_args");
     compare_keys("quads", &twin.quads[..twin.counters.quads as usize], &pipeline.quads(), |_| false)?;
     compare_keys("corners", &twin.corners[..twin.counters.corners as usize], &pipeline.corners(), is_hardly_open)?;
     say("quads and corners are those of the twin");

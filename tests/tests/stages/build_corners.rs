@@ -16,7 +16,7 @@ use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use libtest_mimic::Trial;
 
 use crate::outline_balls::{Direction, Image, clip_and_delta, image};
-use crate::parity::{BEFORE_CORNERS, for_each_case, for_each_smooth_case, run, stage};
+use crate::parity::{for_each_case, for_each_smooth_case, run, stage};
 
 /// Of the ends of all cases together, one in so many may be decided by rounding.
 const DECIDED_BY_ROUNDING: usize = 100;
@@ -35,7 +35,7 @@ pub fn trials() -> Vec<Trial> {
 fn equals_its_twin(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "build_corners");
     let (mut corners, mut different) = (0, 0);
-    for_each_case(&BEFORE_CORNERS, |case| {
+    for_each_case("build_corners", |case| {
         let mut twin = case.frame.clone();
         let args = twin.extrude_args[1];
         let outputs = run(gpu, &stage, &twin, args.x * args.y);
@@ -137,7 +137,7 @@ fn line(frame: &Frame, caster: u32, vertex: u32, other: u32) -> Option<Direction
 
 fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "build_corners");
-    for_each_case(&BEFORE_CORNERS, |case| {
+    for_each_case("build_corners", |case| {
         let args = case.frame.extrude_args[1];
         let complete = run(gpu, &stage, &case.frame, args.x * args.y);
         let counters: Counters = complete.get("counters")[0];
@@ -169,7 +169,7 @@ fn comparer_finds_planted_faults() -> Outcome {
         |corners, index| corners[index].middle[1] = f32::NAN,
     ];
     let (mut planted, mut found) = ([0; 5], [0; 5]);
-    for_each_smooth_case(&BEFORE_CORNERS, |case| {
+    for_each_smooth_case("build_corners", |case| {
         let mut twin = case.frame.clone();
         twin.run_mirror("build_corners");
         let expected = &twin.corners[..twin.counters.corners as usize];

@@ -12,9 +12,6 @@ use libtest_mimic::Trial;
 
 use crate::parity::{for_each_case, run, stage};
 
-const BEFORE: [&str; 6] =
-    ["classify_faces", "write_recheck_args", "recheck_faces", "write_refine_args", "refine_faces", "resolve_faces"];
-
 pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("detect_silhouette::equals_its_twin", equals_its_twin),
@@ -25,13 +22,13 @@ pub fn trials() -> Vec<Trial> {
 
 fn equals_its_twin(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "detect_silhouette");
-    for_each_case(&BEFORE, |case| compare(gpu, &stage, &case.frame))
+    for_each_case("detect_silhouette", |case| compare(gpu, &stage, &case.frame))
 }
 
 fn equals_its_twin_on_random_bits(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "detect_silhouette");
     let mut random = Random::new(2);
-    for_each_case(&[], |case| {
+    for_each_case("classify_faces", |case| {
         let mut frame = case.frame.clone();
         frame.lit.fill_with(|| random.word());
         compare(gpu, &stage, &frame)
@@ -53,7 +50,7 @@ fn compare(gpu: &Gpu, stage: &StageRun, frame: &Frame) -> Outcome {
 
 fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "detect_silhouette");
-    for_each_case(&BEFORE, |case| {
+    for_each_case("detect_silhouette", |case| {
         let mut complete = case.frame.clone();
         complete.run_mirror("detect_silhouette");
         let Some(room) = complete.counters.silhouette_edges.checked_sub(1) else { return Ok(()) };

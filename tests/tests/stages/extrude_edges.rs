@@ -18,7 +18,7 @@ use contrejour_tests::stage_run::StageRun;
 use libtest_mimic::Trial;
 
 use crate::outline_balls::{Clip, Image, clip_and_delta, image, ndc_of, q_of, width_of};
-use crate::parity::{BEFORE_CORNERS, BEFORE_EXTRUSION, for_each_case, for_each_smooth_case, run, stage};
+use crate::parity::{for_each_case, for_each_smooth_case, run, stage};
 
 /// Of the edges of all cases together, one in so many may be decided by rounding.
 const DECIDED_BY_ROUNDING: usize = 100;
@@ -69,7 +69,7 @@ fn a_missing_clip_is_found(gpu: &Gpu) -> Outcome {
 
 fn compare_with_twin(gpu: &Gpu, stage: &StageRun) -> Outcome {
     let (mut quads, mut different) = (0, 0);
-    for_each_case(&BEFORE_EXTRUSION, |case| {
+    for_each_case("extrude_edges", |case| {
         let mut twin = case.frame.clone();
         let args = twin.extrude_args[0];
         let outputs = run(gpu, stage, &twin, args.x * args.y);
@@ -210,7 +210,7 @@ impl Span {
 
 fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "extrude_edges");
-    for_each_case(&BEFORE_EXTRUSION, |case| {
+    for_each_case("extrude_edges", |case| {
         let args = case.frame.extrude_args[0];
         let complete = run(gpu, &stage, &case.frame, args.x * args.y);
         let counters: Counters = complete.get("counters")[0];
@@ -244,7 +244,7 @@ fn comparer_finds_planted_faults() -> Outcome {
         |quads, index| quads[index].width_ndc[1] = f32::NAN,
     ];
     let (mut planted, mut found) = ([0; 6], [0; 6]);
-    for_each_smooth_case(&BEFORE_CORNERS, |case| {
+    for_each_smooth_case("build_corners", |case| {
         let expected = &case.frame.quads[..case.frame.counters.quads as usize];
         for (index, fault) in (0..expected.len()).step_by(7).zip((0..faults.len()).cycle()) {
             let mut faulty = expected.to_vec();

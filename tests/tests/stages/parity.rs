@@ -23,31 +23,6 @@ const FILES: [&str; 9] = [
     "animated/RiggedFigure.glb",
 ];
 
-/// What has run when edges are extruded.
-pub const BEFORE_EXTRUSION: [&str; 8] = [
-    "classify_faces",
-    "write_recheck_args",
-    "recheck_faces",
-    "write_refine_args",
-    "refine_faces",
-    "resolve_faces",
-    "detect_silhouette",
-    "write_extrude_args",
-];
-
-/// What has run when corners are built.
-pub const BEFORE_CORNERS: [&str; 9] = [
-    "classify_faces",
-    "write_recheck_args",
-    "recheck_faces",
-    "write_refine_args",
-    "refine_faces",
-    "resolve_faces",
-    "detect_silhouette",
-    "write_extrude_args",
-    "extrude_edges",
-];
-
 /// One mesh or many under one light, before the first stage.
 pub struct Case {
     /// Mesh and light, for messages.
@@ -56,26 +31,24 @@ pub struct Case {
     pub frame: Frame,
 }
 
-/// Calls `check` for each mesh and light with a frame whose earlier stages have run on the CPU.
-pub fn for_each_case(stages_before: &[&str], check: impl FnMut(&Case) -> Outcome) -> Outcome {
-    for_each_case_of(&meshes(), stages_before, check)
+/// Calls `check` for each mesh and light with a frame on which the stages before `stage` have run on the CPU.
+pub fn for_each_case(stage: &str, check: impl FnMut(&Case) -> Outcome) -> Outcome {
+    for_each_case_of(&meshes(), stage, check)
 }
 
 /// The same for smooth meshes alone, whose outlines rounding hardly touches.
-pub fn for_each_smooth_case(stages_before: &[&str], check: impl FnMut(&Case) -> Outcome) -> Outcome {
+pub fn for_each_smooth_case(stage: &str, check: impl FnMut(&Case) -> Outcome) -> Outcome {
     let mut meshes = shapes();
     meshes.retain(|mesh| ["torus", "knot"].contains(&mesh.name.as_str()));
-    for_each_case_of(&meshes, stages_before, check)
+    for_each_case_of(&meshes, stage, check)
 }
 
-fn for_each_case_of(meshes: &[TestMesh], stages_before: &[&str], mut check: impl FnMut(&Case) -> Outcome) -> Outcome {
+fn for_each_case_of(meshes: &[TestMesh], stage: &str, mut check: impl FnMut(&Case) -> Outcome) -> Outcome {
     for mesh in meshes {
         let step = if mesh.face_count() > 500 { 6 } else { 3 };
         for (index, light) in lights(mesh).iter().enumerate().step_by(step) {
             let mut case = Case { name: format!("{}, light {index}", mesh.name), frame: frame(&mesh.parts, light) };
-            for stage in stages_before {
-                case.frame.run_mirror(stage);
-            }
+            case.frame.run_mirrors("classify_faces", stage);
             check(&case).map_err(|difference| format!("{}: {difference}", case.name))?;
         }
     }
@@ -127,13 +100,11 @@ pub fn run(gpu: &Gpu, stage: &StageRun, frame: &Frame, groups: u32) -> Outputs {
     stage.run(gpu, groups, &inputs)
 }
 
-/// Decided bits are exact, listed ones are clear, and bits behind the last face are clear. The stages are those that lead
-/// from before to the exact bits.
-pub fn check_bits(before: &Frame, stages: &[&str], after: &Frame, is_listed: impl Fn(u32, u32) -> bool) -> Outcome {
+/// Decided bits are exact, listed ones are clear, and bits behind the last face are clear. The exact ones are those that all
+/// stages of facing from `stage` on leave.
+pub fn check_bits(before: &Frame, stage: &str, after: &Frame, is_listed: impl Fn(u32, u32) -> bool) -> Outcome {
     let mut exact = before.clone();
-    for stage in stages {
-        exact.run_mirror(stage);
-    }
+    exact.run_mirrors(stage, "detect_silhouette");
     for item in &after.face_items {
         let caster = &after.casters[item.caster as usize];
         for face_id in 64 * item.block..64 * (item.block + 1) {
