@@ -87,11 +87,5 @@ pub fn trials() -> Vec<Trial> {
 fn is_refused(arguments: &str, told: &[&str]) -> Outcome {
     let folder = Folder::with(&FILES);
     fs::create_dir(folder.path("folder.obj")).map_err(|error| error.to_string())?;
-    let before = folder.names();
-    let line = folder.run(arguments).refusal()?;
-    if let Some(word) = told.iter().find(|word| !line.contains(*word)) {
-        return Err(format!("{word:?} is not told: {line}"));
-    }
-    let after = folder.names();
-    if before == after { Ok(()) } else { Err(format!("files were left: {after:?}")) }
+    folder.refuses(arguments, told)
 }

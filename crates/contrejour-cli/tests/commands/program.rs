@@ -63,6 +63,17 @@ impl Folder {
         Ok([number(16), number(20)])
     }
 
+    /// Checks that arguments are refused in one line that tells all these words, and that no file is left.
+    pub fn refuses(&self, arguments: &str, told: &[&str]) -> Result<(), String> {
+        let before = self.names();
+        let line = self.run(arguments).refusal()?;
+        if let Some(word) = told.iter().find(|word| !line.contains(*word)) {
+            return Err(format!("{word:?} is not told: {line}"));
+        }
+        let after = self.names();
+        if before == after { Ok(()) } else { Err(format!("files were left: {after:?}")) }
+    }
+
     /// Runs the binary with arguments that spaces separate.
     pub fn run(&self, arguments: &str) -> Run {
         self.run_by(&mut Command::new(BINARY), arguments)
