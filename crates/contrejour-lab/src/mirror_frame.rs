@@ -4,11 +4,10 @@ use std::borrow::Cow;
 
 use bytemuck::cast_slice;
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Counters, Edge, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView,
-    OUTLINE_WORDS_PER_BLOCK, RecheckWord, WorkItem,
+    BLOCK_SIZE, Caster, CasterLight, Edge, Face, LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, WorkItem,
 };
 use contrejour_mesh::TopologyAwareMesh;
-use contrejour_mirror::{ClassifyFaces, FrameInputs, FrameOutputs, RecheckFaces, RefineFaces, ResolveFaces, run_frame};
+use contrejour_mirror::{FrameInputs, FrameOutputs, run_facing, run_frame};
 use contrejour_plan::{Light, LightError, NearOne, ShadowSettings, ViewCounts, caster_light, views};
 use glam::DMat4;
 
@@ -124,7 +123,16 @@ impl<'a> MirrorFrame<'a> {
 
     /// All stages, one after the other.
     pub fn run(&self) -> FrameOutputs {
-        run_frame(&FrameInputs {
+        run_frame(&self.inputs())
+    }
+
+    /// The stages that find lit faces, alone: one bit a face.
+    pub fn lit(&self) -> Vec<u32> {
+        run_facing(&self.inputs())
+    }
+
+    fn inputs(&self) -> FrameInputs<'_> {
+        FrameInputs {
             view: &self.view,
             face_items: &self.face_items,
             edge_items: &self.edge_items,
@@ -136,48 +144,8 @@ impl<'a> MirrorFrame<'a> {
             edges: &self.edges,
             incidences: &self.incidences,
             vertex_edges: &self.vertex_edges,
-        })
-    }
-
-    /// The stages that find lit faces, alone: one bit a face.
-    pub fn lit(&self) -> Vec<u32> {
-        let Self { view, face_items, casters, caster_lights, faces, planes, positions, .. } = self;
-        let mut lit = vec![0; casters.iter().map(lit_end).max().unwrap_or(0) as usize];
-        let mut undecided = vec![FaceRef::default(); view.undecided_capacity as usize];
-        let mut counters = Counters::default();
-        let mut recheck_words = vec![RecheckWord::default(); lit.len()];
-        ClassifyFaces {
-            view,
-            face_items,
-            casters,
-            caster_lights,
-            planes,
-            lit: &mut lit,
-            recheck_words: &mut recheck_words,
-            counters: &mut counters,
         }
-        .run();
-        RecheckFaces {
-            view,
-            recheck_words: &recheck_words,
-            casters,
-            caster_lights,
-            faces,
-            positions,
-            lit: &mut lit,
-            undecided: &mut undecided,
-            counters: &mut counters,
-        }
-        .run();
-        let (undecided, counters) = (&undecided, &counters);
-        RefineFaces { view, undecided, counters, casters, caster_lights, faces, positions, lit: &mut lit }.run();
-        ResolveFaces { view, undecided, counters, casters, caster_lights, faces, positions, lit: &mut lit }.run();
-        lit
     }
-}
-
-fn lit_end(caster: &Caster) -> u32 {
-    caster.first_lit_word + words(caster.face_count, LIT_WORDS_PER_BLOCK)
 }
 
 fn words(count: u32, words_per_block: u32) -> u32 {

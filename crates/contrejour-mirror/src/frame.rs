@@ -38,7 +38,7 @@ pub struct FrameInputs<'a> {
 }
 
 /// What the stages of one light view write. Lists end after their last record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameOutputs {
     /// One bit a face.
     pub lit: Vec<u32>,
@@ -75,25 +75,37 @@ pub fn run_frame(inputs: &FrameInputs) -> FrameOutputs {
     outputs
 }
 
+/// Runs the stages that find lit faces, alone: one bit a face.
+///
+/// # Panics
+///
+/// As [`run_frame`].
+pub fn run_facing(inputs: &FrameInputs) -> Vec<u32> {
+    let mut outputs = FrameOutputs { lit: lit_words(inputs), ..FrameOutputs::default() };
+    outputs.find_lit_faces(inputs);
+    outputs.lit
+}
+
+fn lit_words(inputs: &FrameInputs) -> Vec<u32> {
+    let end = |caster: &Caster| caster.first_lit_word + caster.face_count.div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
+    vec![0; inputs.casters.iter().map(end).max().unwrap_or(0) as usize]
+}
+
+fn outline_words(inputs: &FrameInputs) -> Vec<u32> {
+    let end =
+        |caster: &Caster| caster.first_outline_word + caster.edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK;
+    vec![0; inputs.casters.iter().map(end).max().unwrap_or(0) as usize]
+}
+
 impl FrameOutputs {
     fn with_room(inputs: &FrameInputs) -> Self {
-        let lit_words =
-            |caster: &Caster| caster.first_lit_word + caster.face_count.div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
-        let outline_words = |caster: &Caster| {
-            caster.first_outline_word + caster.edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK
-        };
-        let words_of_all = |words: &dyn Fn(&Caster) -> u32| inputs.casters.iter().map(words).max().unwrap_or(0);
         Self {
-            lit: vec![0; words_of_all(&lit_words) as usize],
-            outline_sides: vec![0; words_of_all(&outline_words) as usize],
+            lit: lit_words(inputs),
+            outline_sides: outline_words(inputs),
             silhouettes: vec![SilhouetteEdge::default(); inputs.view.silhouette_capacity as usize],
             quads: vec![Quad::default(); inputs.view.quad_capacity as usize],
             corners: vec![Corner::default(); inputs.view.corner_capacity as usize],
-            counters: Counters::default(),
-            recheck_args: Default::default(),
-            refine_args: Default::default(),
-            extrude_args: Default::default(),
-            draw_args: Default::default(),
+            ..Self::default()
         }
     }
 

@@ -44,7 +44,7 @@ pub use build_corners::BuildCorners;
 pub use classify_faces::ClassifyFaces;
 pub use detect_silhouette::DetectSilhouette;
 pub use extrude_edges::ExtrudeEdges;
-pub use frame::{FrameInputs, FrameOutputs, run_frame};
+pub use frame::{FrameInputs, FrameOutputs, run_facing, run_frame};
 pub use recheck_faces::RecheckFaces;
 pub use refine_faces::RefineFaces;
 pub use resolve_faces::ResolveFaces;
