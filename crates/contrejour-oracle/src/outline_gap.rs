@@ -160,18 +160,44 @@ fn corner_covers(corner: &Corner, point: DVec2, tolerance: f64) -> bool {
 /// Zero inside.
 fn distance_to_triangle(triangle: &[DVec2; 3], point: DVec2) -> f64 {
     let [a, b, c] = *triangle;
-    let sides = [(b - a).perp_dot(point - a), (c - b).perp_dot(point - b), (a - c).perp_dot(point - c)];
+    let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| Side::new(from, to, point));
     let area = (b - a).perp_dot(c - a);
-    if area != 0.0 && sides.iter().all(|side| side * area > 0.0) {
+    if area != 0.0 && sides.iter().all(|side| side.doubled_area() * area > 0.0) {
         return 0.0;
     }
-    [(a, b), (b, c), (c, a)].map(|(from, to)| distance_to_segment(from, to, point)).into_iter().fold(f64::MAX, f64::min)
+    sides.iter().map(Side::distance).fold(f64::MAX, f64::min)
 }
 
-fn distance_to_segment(from: DVec2, to: DVec2, point: DVec2) -> f64 {
-    let delta = to - from;
-    let share = ((point - from).dot(delta) / delta.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    point.distance(from + share * delta)
+/// A side of a triangle as seen from a point: from the end that is nearer to it, since beside a side that is 1e16 times
+/// longer than the point is away, the other end would swallow the point's digits.
+struct Side {
+    /// From the nearer end to the point.
+    to_point: DVec2,
+    /// From the nearer end to the farther one.
+    to_far_end: DVec2,
+    /// 1, or -1 where the nearer end is the side's second.
+    sign: f64,
+}
+
+impl Side {
+    fn new(from: DVec2, to: DVec2, point: DVec2) -> Self {
+        if point.distance_squared(from) <= point.distance_squared(to) {
+            Self { to_point: point - from, to_far_end: to - from, sign: 1.0 }
+        } else {
+            Self { to_point: point - to, to_far_end: from - to, sign: -1.0 }
+        }
+    }
+
+    /// Twice the area of the triangle that the side has with the point. Positive to the left of the side.
+    fn doubled_area(&self) -> f64 {
+        self.sign * self.to_far_end.perp_dot(self.to_point)
+    }
+
+    fn distance(&self) -> f64 {
+        let length_squared = self.to_far_end.length_squared().max(f64::MIN_POSITIVE);
+        let share = (self.to_point.dot(self.to_far_end) / length_squared).clamp(0.0, 1.0);
+        self.to_point.distance(share * self.to_far_end)
+    }
 }
 
 type Box2 = (DVec2, DVec2);
@@ -336,6 +362,25 @@ mod tests {
         let turned = DVec2::from_angle(2_f64.to_radians()).rotate(ndc(corners[0].begin));
         corners[0].begin = turned.as_vec2().to_array();
         assert!(!outline_gaps(&quads, &corners, &blockers, &GapSearch::default()).is_empty());
+    }
+
+    /// A triangle that is 1e22 times the view, whose corner lies in it: what it covers is known by its angle.
+    #[test]
+    fn a_point_beside_the_corner_of_a_huge_triangle_is_told_from_one_in_it() {
+        let (apex, size) = (DVec2::new(0.25, -0.5), 1e22);
+        for turn in 0..360 {
+            let direction = |angle: f64| DVec2::from_angle((f64::from(turn) + angle).to_radians());
+            let mut corners = [apex, apex + size * direction(0.0), apex + 3.0 * size * direction(50.0)];
+            for _ in 0..3 {
+                corners.rotate_left(1);
+                let distance = |angle| distance_to_triangle(&corners, apex + 1e-3 * direction(angle));
+                assert_eq!(distance(25.0), 0.0, "{turn}");
+                for (outside, expected) in [(-10.0, 10_f64), (60.0, 10.0), (205.0, 90.0)] {
+                    let expected = 1e-3 * expected.to_radians().sin();
+                    assert!((distance(outside) - expected).abs() < 1e-9, "{turn}: {outside}");
+                }
+            }
+        }
     }
 
     #[test]
