@@ -35,8 +35,8 @@ fn after_help() -> String {
     let width = FAMILIES.iter().map(|family| family.name.len()).max().unwrap_or(0);
     let families = FAMILIES.map(|family| format!("  {:width$}  {}\n", family.name, family.stresses)).concat();
     format!(
-        "Families:\n{families}\nExit status: 0 when no case has a sign error, an open cycle, a gap or a number that is not \
-         finite; 1 when one has; 2 when something is wrong. The last line that is printed is the path of the page."
+        "Families:\n{families}\nExit status: 0 when no case has a sign error, an open cycle, a gap, a number that is not \
+         finite or a large error without a reason; 1 when one has; 2 when something is wrong. The last line that is printed is the path of the page."
     )
 }
 

@@ -5,6 +5,8 @@ use contrejour_plan::{Light, ShadowSettings};
 use contrejour_scene::Camera;
 use glam::DMat4;
 
+use super::row::add_reason;
+
 /// Meshes, a light and settings that go through the pipeline together.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -53,8 +55,15 @@ impl Case {
     }
 
     /// The same case where gaps are part of the definition.
-    pub fn without_gap_search(self, degrades: &str) -> Self {
-        Self { gap_search: None, degrades: degrades.to_owned(), ..self }
+    pub fn without_gap_search(mut self, reason: &str) -> Self {
+        self.gap_search = None;
+        self.explain(reason);
+        self
+    }
+
+    /// Adds a reason why the definition does not hold.
+    pub fn explain(&mut self, reason: &str) {
+        add_reason(&mut self.degrades, reason);
     }
 }
 

@@ -26,7 +26,9 @@ pub struct Findings {
     pub non_finite: u64,
     /// Rows with a reason why the definition does not hold, or with a refusal.
     pub degraded: usize,
-    /// Rows with a sign error, an open cycle, a gap or a number that is not finite.
+    /// Rows with a large error of width or visibility and without a reason.
+    pub unexplained: usize,
+    /// Rows with a sign error, an open cycle, a gap, a number that is not finite or a large error without a reason.
     pub faulty: usize,
 }
 
@@ -49,6 +51,7 @@ impl Stability {
             gaps: sum(|row| row.gaps),
             non_finite: sum(|row| row.non_finite),
             degraded: self.rows().filter(|row| !row.degrades.is_empty()).count(),
+            unexplained: self.rows().filter(|row| !row.unexplained().is_empty()).count(),
             faulty: self.rows().filter(|row| row.faults() > 0).count(),
         }
     }
@@ -63,7 +66,10 @@ impl Stability {
                 ("numbers that are not finite", row.non_finite),
             ];
             let cells = cells.into_iter().filter_map(|(name, count)| Some((name, count.filter(|count| *count > 0)?)));
-            let told: Vec<_> = cells.map(|(name, count)| format!("{count} {name}")).collect();
+            let counts = cells.map(|(name, count)| format!("{count} {name}"));
+            let unexplained =
+                row.unexplained().into_iter().map(|(name, error)| format!("{name} {error:.4} without a reason"));
+            let told: Vec<_> = counts.chain(unexplained).collect();
             format!("{} at {}: {}", row.family, row.parameter, told.join(", "))
         };
         self.rows().filter(|row| row.faults() > 0).map(told).collect()

@@ -15,7 +15,7 @@ use super::checks::{FaceSigns, WidthDefinition, bare_lit, missing_quads, non_fin
 use super::device::{DeviceFrame, DeviceMesh};
 use super::error::{CaseError, Ended, Refusal};
 use super::family::Family;
-use super::row::{FacingTimes, Row};
+use super::row::{FacingTimes, Row, add_reason};
 use super::sight::look;
 use crate::mirror_frame::MirrorFrame;
 
@@ -145,8 +145,7 @@ fn explain(row: &mut Row, shadows: &Shadows) {
     let imageless = (shadows.stats().imageless_casters > 0).then(|| {
         "32-bit floats can't hold the view's clip space: the silhouette is found, no shadow is thrown".to_owned()
     });
-    let known = Some(std::mem::take(&mut row.degrades)).filter(|known| !known.is_empty());
-    row.degrades = known.into_iter().chain(told).chain(imageless).collect::<Vec<_>>().join("; ");
+    told.chain(imageless).for_each(|reason| add_reason(&mut row.degrades, &reason));
 }
 
 /// The same faces by a bare test and by the twins of the exact stages, taking turns; the best of three each. None where

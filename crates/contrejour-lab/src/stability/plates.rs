@@ -1,7 +1,7 @@
 //! A plate over a floor, both across the light's axis, looked at from aside: every depth is even, so that truth and
 //! definitions are easy to say.
 
-use contrejour_plan::{Light, LightKind};
+use contrejour_plan::{Light, LightKind, views};
 use contrejour_scene::Camera;
 use glam::DVec3;
 
@@ -30,7 +30,25 @@ pub(super) fn plate_over_floor(parameter: String, at: f64, height: f64, light: L
     let mut case = Case::new(parameter, at, sheet(PLATE, height), light);
     case.meshes.push(sheet(FLOOR, 0.0));
     case.seen_from = Some(aside());
+    if penumbra_share(height, &light) > 0.1 {
+        case.explain(
+            "the light reaches behind the plate by more than a tenth of the shadow: the true umbra is so much smaller, \
+             while smoothies make the outer penumbra alone",
+        );
+    }
     case
+}
+
+/// Half of the true penumbra's width, over half the side of what the map holds of the plate's shadow.
+fn penumbra_share(height: f64, light: &Light) -> f64 {
+    let Ok(views) = views(light) else { return 0.0 };
+    let (view, blocker) = (&views[0], LAMP - height);
+    let half_penumbra = view.light_size * (view.q_of_depth(LAMP) - view.q_of_depth(blocker));
+    let plate = match light.kind {
+        LightKind::Spot { cone_angle, .. } => PLATE / (blocker * (0.5 * cone_angle).tan()),
+        LightKind::Directional { half_extent, .. } => PLATE / half_extent,
+    };
+    half_penumbra / plate.min(1.0)
 }
 
 /// A camera that sees plate, floor and shadow.

@@ -18,6 +18,12 @@ pub const COLUMNS: [&str; 12] = [
     "degrades",
 ];
 
+/// Above this, an error of a smoothie's width is more than rounding.
+const WIDTH_ERROR_MAX: f64 = 1e-3;
+
+/// Above this, an error of visibility is more than what a few texels and the shape of the penumbra make.
+const VISIBILITY_ERROR_MAX: f64 = 0.06;
+
 /// One case. What a family can't say is `None`, an empty cell. The serialised fields are [`COLUMNS`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Row {
@@ -70,10 +76,31 @@ pub struct FacingTimes {
 }
 
 impl Row {
-    /// What must never be: sign errors, open cycles, gaps and numbers that are not finite.
+    /// What must never be: sign errors, open cycles, gaps and numbers that are not finite; and a large error of width or
+    /// visibility without a reason.
     pub fn faults(&self) -> u64 {
-        [self.sign_errors, self.open_cycles, self.gaps, self.non_finite].into_iter().flatten().sum()
+        let counts = [self.sign_errors, self.open_cycles, self.gaps, self.non_finite];
+        counts.into_iter().flatten().sum::<u64>() + self.unexplained().len() as u64
     }
+
+    /// Errors of width or visibility that are large and have no reason, with their names.
+    pub(super) fn unexplained(&self) -> Vec<(&'static str, f64)> {
+        let errors = [
+            ("width error", self.width_error, WIDTH_ERROR_MAX),
+            ("visibility error", self.visibility_error, VISIBILITY_ERROR_MAX),
+        ];
+        let large =
+            errors.into_iter().filter_map(|(name, error, most)| Some((name, error.filter(|&error| error > most)?)));
+        large.filter(|_| self.degrades.is_empty()).collect()
+    }
+}
+
+/// Adds a reason to those why a definition does not hold.
+pub(super) fn add_reason(degrades: &mut String, reason: &str) {
+    if !degrades.is_empty() {
+        *degrades += "; ";
+    }
+    *degrades += reason;
 }
 
 #[cfg(test)]
@@ -97,9 +124,15 @@ mod tests {
             Row { open_cycles: count, ..Row::default() },
             Row { gaps: count, ..Row::default() },
             Row { non_finite: count, ..Row::default() },
+            Row { width_error: Some(0.01), visibility_error: Some(0.1), ..Row::default() },
         ] {
             assert_eq!(fault.faults(), 2);
         }
+        let small = Row { width_error: Some(1e-5), visibility_error: Some(0.05), ..Row::default() };
+        assert_eq!(small.faults(), 0);
+        let mut explained = Row { width_error: Some(0.01), visibility_error: Some(0.1), ..Row::default() };
+        add_reason(&mut explained.degrades, "too wide");
+        assert_eq!(explained.faults(), 0);
         assert_eq!(Row { sign_errors_f32: count, ..Row::default() }.faults(), 0);
     }
 }

@@ -41,7 +41,7 @@ fn case(name: String, cone: f64) -> Case {
     camera.target = DVec3::ZERO;
     camera.fov_y = 2.0 * (0.5 * shown / camera.eye.length()).atan();
     case.seen_from = Some(camera);
-    case.degrades = degrades(&case);
+    explain(&mut case);
     case
 }
 
@@ -51,18 +51,13 @@ fn at_corner(mesh: &CaseMesh) -> CaseMesh {
     CaseMesh::new(mesh.positions.iter().map(moved).collect(), mesh.triangles.clone())
 }
 
-fn degrades(case: &Case) -> String {
-    let Ok(views) = views(&case.light) else { return String::new() };
+fn explain(case: &mut Case) {
+    let Ok(views) = views(&case.light) else { return };
     let view = &views[0];
-    let reasons = [
-        (
-            view.light_size / (LAMP - HEIGHT) > 2.0,
-            "the cone sees less than the smoothie, whose width is held to the map's side",
-        ),
-        (
-            view.texel_world(case.settings.map_size) * LAMP > 0.1 * HEIGHT,
-            "a texel is larger than a tenth of the plate's height: its depth bias swallows the shadow",
-        ),
-    ];
-    reasons.iter().filter(|(applies, _)| *applies).map(|(_, reason)| *reason).collect::<Vec<_>>().join("; ")
+    if view.light_size / (LAMP - HEIGHT) > 2.0 {
+        case.explain("the cone sees less than the smoothie, whose width is held to the map's side");
+    }
+    if view.texel_world(case.settings.map_size) * LAMP > 0.1 * HEIGHT {
+        case.explain("a texel is larger than a tenth of the plate's height: its depth bias swallows the shadow");
+    }
 }

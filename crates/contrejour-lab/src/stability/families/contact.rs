@@ -23,10 +23,10 @@ fn cases(effort: &Effort) -> Vec<Case> {
         lamp_and_sky().map(|(light_name, light)| {
             let mut case = plate_over_floor(format!("{name}, {light_name}"), share, LAMP * share, light);
             if LAMP * share <= bias(&light, &case.settings) {
-                case.degrades =
+                case.explain(
                     "the gap is less than the depth bias, within which the map can't tell the blocker from its \
-                                 receiver: no smoothie is kept, and the shadow begins later"
-                        .to_owned();
+                     receiver: no smoothie is kept, and the shadow begins later",
+                );
             }
             case
         })

@@ -25,7 +25,7 @@ fn cases(effort: &Effort) -> Vec<Case> {
         [("spot", spot(share)), ("parallel", parallel(share))].map(|(light_name, light)| {
             let mut case = plate_over_floor(format!("{name}, {light_name}"), share, HEIGHT, light);
             if share < 0.0 {
-                case.degrades = "the floor lies behind the far plane, where everything is lit by definition".to_owned();
+                case.explain("the floor lies behind the far plane, where everything is lit by definition");
             }
             case
         })

@@ -130,14 +130,14 @@ fn light_distance(effort: &Effort) -> Vec<Case> {
             near: 0.5 * distance,
             far: 2.0 * distance + 2.0 * size,
         };
-        let case = Case::new(name, share, mesh.clone(), Light { kind, color: [1.0; 3] });
-        let degrades = if share >= DEPTH_FAILS {
-            "depth from the light has 24 bits: at this distance they tell too few places within the mesh apart to say what \
-             shadows what"
-        } else {
-            ""
-        };
-        Case { degrades: degrades.to_owned(), ..case }
+        let mut case = Case::new(name, share, mesh.clone(), Light { kind, color: [1.0; 3] });
+        if share >= DEPTH_FAILS {
+            case.explain(
+                "depth from the light has 24 bits: at this distance they tell too few places within the mesh apart to \
+                 say what shadows what",
+            );
+        }
+        case
     });
     cases.collect()
 }

@@ -30,10 +30,10 @@ fn cases(effort: &Effort) -> Vec<Case> {
             let mut case = plate_over_floor(format!("{size}, {light_name}"), f64::from(size), HEIGHT, light);
             case.settings.map_size = size;
             if (1..SMALL).contains(&size) {
-                case.degrades =
+                case.explain(
                     "a texel's depth bias and half a texel of overlap are as large as the shadow and its edge; \
-                                 smoothies are at least one and a half texels wide"
-                        .to_owned();
+                     smoothies are at least one and a half texels wide",
+                );
             }
             case
         })

@@ -41,8 +41,11 @@ fn distance(effort: &Effort) -> Vec<Case> {
     let distances = effort.powers_of_ten(-2, 7, 1).into_iter().flat_map(|(name, distance)| {
         // Along no axis, so that all coordinates lose their digits.
         let offset = 2.0 * RING_RADIUS * distance * DVec3::new(0.6, -0.5, 0.62);
-        let degrades = if distance >= SHAPELESS { NO_SHAPE } else { "" };
-        ring_cases(&name, distance, 1.0, offset).into_iter().map(|case| Case { degrades: degrades.to_owned(), ..case })
+        let mut cases = ring_cases(&name, distance, 1.0, offset);
+        if distance >= SHAPELESS {
+            cases.iter_mut().for_each(|case| case.explain(NO_SHAPE));
+        }
+        cases
     });
     none.into_iter().chain(distances).collect()
 }
