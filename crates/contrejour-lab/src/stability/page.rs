@@ -76,8 +76,8 @@ fn findings(found: &Stability) -> Markup {
         }
         @if degraded > 0 {
             p {
-                "In " (degraded) " cases the definition itself does not hold or the library refuses, in words: the last "
-                "column of the tables tells why."
+                "In " (degraded) " cases the definition itself does not hold or the library refuses, in words: the number "
+                "in the last column of the tables is that of the reason in the list above it."
             }
         }
     }
@@ -120,8 +120,9 @@ fn family(family: &FamilyRows) -> Result<Markup, PageError> {
         }
     }
     // The family is the table's.
-    let head = html! { tr { @for column in &COLUMNS[1..] { th scope="col" { (column.replace('_', "_\u{200b}")) } } } };
-    let body = html! { @for row in &family.rows { (table_row(row)) } };
+    let head = html! { tr { @for column in &COLUMNS[1..] { th scope="col" { code { (column.replace('_', "_\u{200b}")) } } } } };
+    let reasons = Reasons::of(family);
+    let body = html! { @for row in &family.rows { (table_row(row, &reasons)) } };
     Ok(html! {
         figure.redone {
             h3 { (family.name) }
@@ -131,14 +132,45 @@ fn family(family: &FamilyRows) -> Result<Markup, PageError> {
                     @for (title, svg) in &plots { figure { figcaption { strong { (title) } } (PreEscaped(svg)) } }
                 }
             }
-            (pictures(family))
+            (reasons.told())
+            (pictures(family, &reasons))
             (boxed(family.name, &[], head, body))
         }
     })
 }
 
+/// The distinct reasons of a family's rows: told once, in a list whose numbers stand in pictures' captions and the table.
+struct Reasons<'a>(Vec<&'a str>);
+
+impl<'a> Reasons<'a> {
+    fn of(family: &'a FamilyRows) -> Self {
+        let mut reasons = Vec::new();
+        for row in &family.rows {
+            if !row.degrades.is_empty() && !reasons.contains(&row.degrades.as_str()) {
+                reasons.push(row.degrades.as_str());
+            }
+        }
+        Self(reasons)
+    }
+
+    /// The number of a row's reason in the list; empty where it has none.
+    fn mark(&self, row: &Row) -> String {
+        let index = self.0.iter().position(|reason| *reason == row.degrades);
+        index.map_or_else(String::new, |index| format!("({})", index + 1))
+    }
+
+    fn told(&self) -> Markup {
+        html! {
+            @if !self.0.is_empty() {
+                p.lead { "Where the definition does not hold, or the library refuses:" }
+                ol { @for reason in &self.0 { li { (reason) } } }
+            }
+        }
+    }
+}
+
 /// What is seen of each case that is looked at.
-fn pictures(family: &FamilyRows) -> Markup {
+fn pictures(family: &FamilyRows, reasons: &Reasons) -> Markup {
     let seen: Vec<_> = family.rows.iter().filter_map(|row| Some((row, row.pictures.as_ref()?))).collect();
     html! {
         @if !seen.is_empty() {
@@ -149,7 +181,7 @@ fn pictures(family: &FamilyRows) -> Markup {
                         @for (address, whose) in pictures.iter().zip(["in truth", "by the technique"]) {
                             img src=(address) alt={ "Visibility " (whose) ", " (family.name) " at " (row.parameter) } loading="lazy";
                         }
-                        figcaption { strong { (row.parameter) } (row.degrades) }
+                        figcaption { strong { (row.parameter) } " " (reasons.mark(row)) }
                     }
                 }
             }
@@ -181,7 +213,7 @@ fn family_plots(family: &FamilyRows) -> [(&'static str, Plot); 3] {
     ]
 }
 
-fn table_row(row: &Row) -> Markup {
+fn table_row(row: &Row, reasons: &Reasons) -> Markup {
     let count = |count: Option<u64>| number(count.map(grouped), false);
     let fault = |count: Option<u64>| {
         html! {
@@ -204,7 +236,7 @@ fn table_row(row: &Row) -> Markup {
             (small(row.width_error))
             (small(row.visibility_error))
             (number(row.time_ms.map(|time| significant(time, 3)), false))
-            td.words { (row.degrades) }
+            td { (reasons.mark(row)) }
         }
     }
 }
