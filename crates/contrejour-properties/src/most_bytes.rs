@@ -17,9 +17,14 @@ pub fn most_bytes_of_mesh_file(format: Format, file_bytes: usize, loaded: Option
     }
 }
 
-/// Bytes that the reading of a scene may hold at once for the bytes of its text and the triangles of its meshes.
+/// Bytes that the reading of a scene may hold at once for the bytes of its text and the triangles of its meshes; `None`
+/// where it was refused.
 pub fn most_bytes_of_scene(text_bytes: usize, triangles: Option<usize>) -> usize {
-    ALWAYS + 1024 * text_bytes + 1024 * triangles.unwrap_or(0)
+    match triangles {
+        Some(triangles) => ALWAYS + 1024 * (text_bytes + triangles),
+        // Shapes of as many triangles as they have by default, 25 600 at most, are made before a later line is refused.
+        None => ALWAYS + 65_536 * text_bytes,
+    }
 }
 
 /// Bytes that topology, twin and oracle may hold at once for a mesh.

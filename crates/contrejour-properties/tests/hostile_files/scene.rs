@@ -47,6 +47,20 @@ fn as_many_meshes_as_a_scene_may_have_and_one_more() {
     assert!(!is_scene("one more", &meshes(65_537)));
 }
 
+/// Found by fuzzing: what a short text makes before its last line is refused.
+#[test]
+fn shapes_before_a_fault() {
+    let _turn = turn();
+    let refused = |what: &str, shapes: &str| {
+        assert!(!is_scene(what, &format!("{EYE_AND_LIGHT}{shapes}[[mesh]]\nfile='missing.ply'")));
+    };
+    for kind in ["plane", "box", "cylinder", "sphere", "torus", "knot", "fence", "elephant"] {
+        refused(kind, &format!("[[mesh]]\nshape.kind='{kind}'\n"));
+    }
+    let knot = |index| format!("[[mesh]]\nshape={{kind='knot',radius={index}}}\n");
+    refused("knots of their own", &(1..=10).map(knot).collect::<String>());
+}
+
 #[test]
 fn shapes_of_more_triangles_than_a_scene_may_have() {
     let _turn = turn();
