@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use contrejour_layout::{CasterLight, Counters, EyeView};
+use contrejour_layout::{Counters, EyeView};
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_plan::{
     BufferKind, Capacity, DeviceFacts, FramePlan, Omitted, PagePlan, Stage, TextureKind, VisibilityKind,
@@ -409,7 +409,7 @@ impl Shadows {
         self.stats.upload_bytes = 0;
         self.stats.set_up_bytes = set_up_bytes;
         self.stats.imageless_casters =
-            plan.casting.iter().filter(|caster| has_no_image(&records.caster_lights[**caster])).count() as u32;
+            plan.casting.iter().filter(|caster| !records.caster_lights[**caster].has_image()).count() as u32;
         self.stats.singular_casters = plan.singular_casters;
         if !is_same {
             let mut write = |(kind, page), bytes: &[u8]| {
@@ -430,10 +430,6 @@ impl Shadows {
         self.records = records;
         self.copies = copies;
     }
-}
-
-fn has_no_image(light: &CasterLight) -> bool {
-    light.light_clip_from_object == [0.0; 16]
 }
 
 fn planned_bytes(plan: &FramePlan) -> u64 {

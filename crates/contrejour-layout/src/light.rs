@@ -21,6 +21,14 @@ shared_struct! {
     }
 }
 
+impl CasterLight {
+    /// False where 32-bit floats can't hold the caster's clip space: then the matrix is zero, and the caster throws no
+    /// shadow.
+    pub fn has_image(&self) -> bool {
+        self.light_clip_from_object != [0.0; 16]
+    }
+}
+
 shared_struct! {
     /// One light view: what the compute stages and the raster passes of its maps need. A uniform.
     LightView {

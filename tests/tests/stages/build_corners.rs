@@ -15,7 +15,7 @@ use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use libtest_mimic::Trial;
 
-use crate::outline_balls::{Direction, Image, clip_and_delta, image};
+use crate::outline_balls::{Direction, Image, image};
 use crate::parity::{for_each_case, for_each_smooth_case, run, stage};
 
 /// Of the ends of all cases together, one in so many may be decided by rounding.
@@ -128,8 +128,7 @@ fn pseudo_angle_error(angle: f64) -> f64 {
 }
 
 fn line(frame: &Frame, caster: u32, vertex: u32, other: u32) -> Option<Direction> {
-    let (clip, delta) = clip_and_delta(frame, caster, vertex, other);
-    match image(&clip, &delta) {
+    match image(frame, caster, vertex, other) {
         Image::Line(direction) => Some(direction),
         Image::Point | Image::Either => None,
     }

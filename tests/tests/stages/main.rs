@@ -5,6 +5,7 @@ mod classify_faces;
 mod detect_silhouette;
 mod device_errors;
 mod extrude_edges;
+mod huge_edges;
 mod outline_balls;
 mod parity;
 mod recheck_faces;
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         detect_silhouette::trials(),
         write_extrude_args::trials(),
         extrude_edges::trials(),
+        huge_edges::trials(),
         build_corners::trials(),
         write_draw_args::trials(),
     ];

@@ -4,8 +4,8 @@ use contrejour_layout::{Caster, CasterLight, LightView};
 use contrejour_tests::ball::Ball;
 use contrejour_tests::frame::Frame;
 
-/// The share of its terms below which the image of an edge counts as a point.
-const POINT_TOLERANCE: f32 = 1e-7;
+/// The share of the longest image of an edge of its length below which that of an edge counts as a point.
+const POINT_TOLERANCE: f32 = 4e-6;
 
 /// A position or a difference of positions in clip space: x, y, z, w.
 pub type Clip = [Ball; 4];
@@ -55,15 +55,28 @@ pub fn clip_and_delta(frame: &Frame, caster: u32, vertex: u32, other: u32) -> (C
     (transformed(light, from, 1.0), transformed(light, delta, 0.0))
 }
 
-/// Direction in which the image of a point moves.
-pub fn image(clip: &Clip, delta: &Clip) -> Image {
-    let [x, y, _, w] = *clip;
-    let [dx, dy, _, dw] = *delta;
-    let (ahead_x, ahead_y) = (dx * w, dy * w);
-    let (drift_x, drift_y) = (x * dw, y * dw);
-    let (along_x, along_y) = (ahead_x - drift_x, ahead_y - drift_y);
-    let noise = Ball::exact(POINT_TOLERANCE) * (Ball::length(ahead_x, ahead_y) + Ball::length(drift_x, drift_y));
-    match (along_x.abs().max(along_y.abs()) - noise).sign() {
+/// Direction in which the image of a point moves towards another one, as `image_plane.wgsl` finds it.
+pub fn image(frame: &Frame, caster: u32, vertex: u32, other: u32) -> Image {
+    let light = &frame.caster_lights[caster as usize];
+    let caster = &frame.casters[caster as usize];
+    let [from, to] = [vertex, other].map(|vertex| scaled(caster, &frame.positions, vertex));
+    let edge = [0, 1, 2].map(|axis| to[axis] - from[axis]);
+    let entry = |column: usize, row: usize| Ball::exact(light.light_clip_from_object[4 * column + row]);
+
+    let reach = [0, 1, 3].map(|row| entry(0, row).abs() + entry(1, row).abs() + entry(2, row).abs());
+    let reach_scale = reciprocal_power(largest(&reach));
+    let [dx, dy, dw] = [0, 1, 3].map(|row| {
+        let part = |column: usize| entry(column, row) * reach_scale * edge[column];
+        part(0) + part(1) + part(2)
+    });
+    let [x, y, _, w] = transformed(light, from, 1.0);
+    let clip_scale = reciprocal_power(largest(&[x, y, w]));
+    let [x, y, w] = [x, y, w].map(|value| value * clip_scale);
+    let (along_x, along_y) = (dx * w - x * dw, dy * w - y * dw);
+
+    let [reach_x, reach_y, reach_w] = reach.map(|value| value * reach_scale);
+    let longest = largest(&edge) * (reach_x.max(reach_y) * w.abs() + largest(&[x, y]) * reach_w);
+    match (largest(&[along_x, along_y]) - Ball::exact(POINT_TOLERANCE) * longest).sign() {
         1 => {
             let length = along_x.value.hypot(along_y.value);
             let error = (along_x.error + along_y.error) / length + 2e-6;
@@ -72,6 +85,18 @@ pub fn image(clip: &Clip, delta: &Clip) -> Image {
         -1 => Image::Point,
         _ => Image::Either,
     }
+}
+
+/// The largest size.
+fn largest(values: &[Ball]) -> Ball {
+    values.iter().copied().map(Ball::abs).reduce(Ball::max).unwrap_or(Ball::exact(0.0))
+}
+
+/// A power of two that brings a size near 1.
+fn reciprocal_power(size: Ball) -> Ball {
+    Ball::exact(f32::from_bits(
+        0x7f00_0000 - ((size.value as f32).to_bits() & 0x7f80_0000).clamp(0x0080_0000, 0x7e80_0000),
+    ))
 }
 
 /// Blocker q.

@@ -96,7 +96,12 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
     row.non_finite = Some(found.non_finite + non_finite(&twin.quads) + non_finite(&twin.corners));
     let drawn = [(&found.quads, &found.corners), (&twin.quads, &twin.corners)];
     let lists = [(&found.silhouettes, &found.quads), (&twin.silhouettes, &twin.quads)];
-    let missing: u64 = lists.iter().map(|(edges, quads)| missing_quads(&view, &meshes, edges, quads)).sum();
+    let has_image = |edge: &&SilhouetteEdge| frame.caster_lights[edge.caster as usize].has_image();
+    let missing = lists.map(|(edges, quads)| {
+        let edges: Vec<_> = edges.iter().filter(has_image).copied().collect();
+        missing_quads(&view, &meshes, &edges, quads)
+    });
+    let missing: u64 = missing.iter().sum();
     if let Some(definition) = WidthDefinition::new(&view, &case.settings) {
         let errors = drawn.iter().filter_map(|(quads, corners)| definition.error(&meshes, quads, corners));
         row.width_error = errors.reduce(f64::max);
