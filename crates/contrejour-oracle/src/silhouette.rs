@@ -1,6 +1,6 @@
 //! Silhouettes by brute force over ordered maps: welding, partners and multiplicities.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::facing::{is_collinear, lit};
 
@@ -118,14 +118,15 @@ impl OracleTopology {
     }
 
     /// Follows the chain of faces without area across their longest edges. A face without a single one across is unlit;
-    /// so are those of a chain that comes back to itself.
+    /// so are those whose chain comes back to them.
     fn partner(&self, face: usize) -> (Option<usize>, bool) {
-        let mut visited = BTreeSet::new();
         let mut current = face;
         let mut negated = false;
+        let mut negated_where_reached = BTreeMap::new();
         while self.is_without_area(current) {
-            if !visited.insert(current) {
-                return (None, false);
+            // Reached again first: the face where the chain enters a ring.
+            if let Some(where_entered) = negated_where_reached.insert(current, negated) {
+                return (None, where_entered);
             }
             let Some((across, is_negated)) = self.across_longest_edge(current) else {
                 return (None, negated);

@@ -11,7 +11,7 @@ mod most_bytes;
 mod scene_text;
 mod silhouette;
 
-pub use caster::Caster;
+pub use caster::{Caster, Lens};
 pub use mesh_file::{Format, Loaded, check_mesh_file};
 pub use most_bytes::{most_bytes_of_mesh_file, most_bytes_of_scene, most_bytes_of_silhouette};
 pub use scene_text::check_scene_text;

@@ -2,7 +2,7 @@
 //!
 //! A face with three distinct, exactly collinear corners has no side. It takes the sign that makes its longest edge
 //! no silhouette against the one face across it; where that face has no area either, the chain is followed. Where
-//! there is no single face across, the face is unlit, and so are all faces of a chain that comes back to itself.
+//! there is no single face across, the face is unlit, and so are all faces of a ring, whose chain comes back to them.
 
 use contrejour_layout::{Face, INCIDENCE_ALONG, UNLIT_FACE, incidence};
 
@@ -92,8 +92,9 @@ fn follow_chains(across: &[Option<SignOf>], slot_of: impl Fn(u32) -> Option<usiz
             match chains[slot] {
                 Chain::Known(sign) => break sign,
                 Chain::Open => {
-                    // Every face from here on asks the next one: none has a sign to take.
-                    for slot in path.drain(..) {
+                    // A ring, in which each face asks the next one: none has a sign to take. What led into it has.
+                    let ring = path.iter().position(|&earlier| earlier == slot).unwrap_or(0);
+                    for slot in path.drain(ring..) {
                         chains[slot] = Chain::Known(UNLIT);
                     }
                     break UNLIT;

@@ -1,6 +1,8 @@
 //! What fuzzing found, kept.
 
-use contrejour_properties::{Format, check_mesh_file};
+use contrejour_mesh::Motion;
+use contrejour_properties::{Caster, Format, Lens, check_mesh_file, check_silhouette};
+use glam::DVec3;
 
 /// A light's nearest depth was no normal 32-bit number.
 #[test]
@@ -51,4 +53,22 @@ fn colours_that_are_no_numbers_are_refused() {
 fn a_mesh_of_the_largest_numbers_loads() {
     let text = "v -3e38 0 0\nv 3e38 0 0\nv 0 3e38 0\nf 1 2 3\n";
     assert!(check_mesh_file(Format::Obj, text.as_bytes()).is_some());
+}
+
+/// The sign of a face without area that leads into a ring of such faces hung on the order of the faces.
+#[test]
+fn faces_without_area_beside_a_ring_of_their_kind() {
+    let positions = vec![[0.0; 3], [0.0, 1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 3.0, 0.0], [0.0, 4.0, 0.0]];
+    let [ring, ring_too, beside] = [[0, 4, 3], [1, 0, 4], [2, 3, 0]];
+    for triangles in [vec![ring, ring_too, beside], vec![beside, ring, ring_too], vec![ring, beside, ring_too]] {
+        check_silhouette(&Caster {
+            positions: positions.clone(),
+            triangles,
+            light: [0.3, 0.2, 1.0, 0.0],
+            mirrored: false,
+            motion: Motion::Rigid,
+            weld_distance: None,
+            lens: Lens { target: DVec3::ZERO, cone_angle: 1.0, near: 0.1, far: 10.0, radius: 0.1 },
+        });
+    }
 }
