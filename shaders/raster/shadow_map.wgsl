@@ -38,5 +38,7 @@ fn vertex_shadow_map(@builtin(vertex_index) index: u32) -> ShadowVertex {
 
 @fragment
 fn fragment_shadow_map(vertex: ShadowVertex) -> @location(0) f32 {
-    return vertex.depth_share * (view.far_depth / view.depth_unit);
+    // What is drawn lies in the frustum; what is interpolated between corners 2^250 apart may be infinite.
+    let depth_share = clamp(vertex.depth_share, view.near_depth / view.far_depth, 1.0);
+    return depth_share * (view.far_depth / view.depth_unit);
 }

@@ -35,6 +35,9 @@ pub enum Hardness {
     Extreme,
     /// About 2^-18 along x, so that floats are asked, and about 2^-65 across, so that their products underflow.
     Underflow,
+    /// Two long sides and a short one, which lie in the light's plane but for rounding. The short side's products with the
+    /// light lie around the smallest normal number: devices that flush what is below lose some of them.
+    Flush,
     /// Coordinates about 2^-125 and about 2^125 in one face and light.
     FarApart,
     /// Biased exponents in these ranges, ends included.
@@ -48,7 +51,7 @@ pub enum Hardness {
 
 impl Hardness {
     /// All kinds; the ranges of exponents lie around those where the tiers of the facing test change.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::AnyBits,
         Self::Coplanar,
         Self::SmallIntegers,
@@ -58,6 +61,7 @@ impl Hardness {
         Self::Degenerate,
         Self::Extreme,
         Self::Underflow,
+        Self::Flush,
         Self::FarApart,
         Self::Exponents { light: [127, 140], faces: [90, 130] },
         Self::Exponents { light: [1, 254], faces: [0, 254] },
@@ -97,6 +101,7 @@ impl HostileCaster {
 fn light_of(kind: Hardness, random: &mut Random) -> [f32; 3] {
     match kind {
         Hardness::Underflow => underflowing(random),
+        Hardness::Flush => [(); 3].map(|()| with_exponent(random, [108, 111])),
         Hardness::AxisAligned => {
             let axis = random.below(3);
             let mut light = [0.0; 3];
@@ -154,6 +159,12 @@ fn extreme(random: &mut Random) -> f32 {
 
 /// In or beside the light's plane in most of many ways.
 fn face(random: &mut Random, kind: Hardness, light: [f32; 3], is_point: bool) -> [[f32; 3]; 3] {
+    if kind == Hardness::Flush {
+        let long = [(); 3].map(|()| with_exponent(random, [125, 128]));
+        let [along, towards] = [-108.0_f64, -90.0].map(|exponent| exponent.exp2() * random.signed());
+        let short = at([0.0; 3], long.map(f64::from), along, light.map(f64::from), towards);
+        return [[0.0; 3], long, short];
+    }
     let [mut a, mut b, mut c] = [(); 3].map(|()| match kind {
         Hardness::Underflow => underflowing(random),
         _ => [(); 3].map(|()| coordinate(random, kind)),
