@@ -8,6 +8,8 @@ mod caster_frame;
 mod hostile;
 mod mesh_file;
 mod most_bytes;
+#[cfg(test)]
+mod planted;
 mod scene_text;
 mod silhouette;
 

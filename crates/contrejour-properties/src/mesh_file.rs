@@ -110,3 +110,36 @@ fn check_mesh(mesh: &TriangleMesh) {
 pub(crate) fn assert_one_line(message: &str) {
     assert!(!message.is_empty() && !message.contains(['\n', '\r']), "{message:?}");
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planted::{Planted, assert_found};
+
+    #[test]
+    fn a_wrong_mesh_is_found() {
+        let good = || {
+            let stl = b"solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n";
+            load_bytes(stl, Path::new("any.stl"), &|_| unreachable!("it is alone")).expect("a good file")
+        };
+        assert_eq!(check_loaded(good()), Loaded { vertices: 3, triangles: 1 });
+        let faults: [Planted<MeshFile>; 9] = [
+            ("a position", |file| file.meshes[0].positions[1][2] = f32::NAN),
+            ("a normal", |file| file.meshes[0].normals[2] = [0.0; 3]),
+            ("a colour", |file| file.meshes[0].colors[0][1] = 1.5),
+            ("a colour", |file| file.meshes[0].colors[0][1] = f32::NAN),
+            ("a triangle names", |file| file.meshes[0].triangles[0][0] = 3),
+            ("left == right", |file| file.meshes[0].colors.truncate(2)),
+            ("a node has mesh", |file| file.nodes[0].mesh = 1),
+            ("a node stands", |file| file.nodes[0].world_from_object.w_axis.x = f64::INFINITY),
+            ("two\\nlines", |file| file.warnings.push("two\nlines".to_owned())),
+        ];
+        for (told, fault) in faults {
+            let mut file = good();
+            fault(&mut file);
+            assert_found(told, || {
+                check_loaded(file);
+            });
+        }
+    }
+}

@@ -66,3 +66,35 @@ pub(crate) fn check_scene(scene: &Scene) {
         assert!(mesh.world_from_object.is_finite(), "{} stands nowhere", mesh.name);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use contrejour_plan::LightKind;
+
+    use super::*;
+    use crate::planted::{Planted, assert_found};
+
+    #[test]
+    fn a_wrong_scene_is_found() {
+        let good = Scene::around(one_triangle());
+        check_scene(&good);
+        let faults: [Planted<Scene>; 7] = [
+            ("near is 0", |scene| {
+                if let LightKind::Spot { near, .. } = &mut scene.light.kind {
+                    *near = 0.0;
+                }
+            }),
+            ("map size", |scene| scene.shadow.map_size = 0),
+            ("[0, ", |scene| scene.size[0] = 0),
+            ("NaN", |scene| scene.ambient[2] = f32::NAN),
+            ("Camera", |scene| scene.camera.near = scene.camera.far),
+            ("Camera", |scene| scene.camera.up = scene.camera.eye - scene.camera.target),
+            ("stands nowhere", |scene| scene.meshes[0].world_from_object.x_axis.y = f64::NAN),
+        ];
+        for (told, fault) in faults {
+            let mut scene = good.clone();
+            fault(&mut scene);
+            assert_found(told, || check_scene(&scene));
+        }
+    }
+}

@@ -18,8 +18,10 @@ pub fn check_silhouette(caster: &Caster) {
         BuildOptions { motion: caster.motion, weld_distance: caster.weld_distance, ..BuildOptions::default() };
     let topology = TopologyAwareMesh::build(&caster.positions, &caster.triangles, &options);
     let topology = topology.unwrap_or_else(|error| panic!("{error}"));
-    let frame = caster.frame(&topology);
+    check_frame(caster, &topology, &caster.frame(&topology));
+}
 
+fn check_frame(caster: &Caster, topology: &TopologyAwareMesh, frame: &FrameOutputs) {
     // Welding by a distance is no business of the oracle's: it gets the faces that it leaves.
     let welded: Vec<[u32; 3]> = topology.faces.iter().map(|face| [face.a, face.b, face.c]).collect();
     let triangles = if caster.weld_distance.is_some() { &welded } else { &caster.triangles };
@@ -28,10 +30,10 @@ pub fn check_silhouette(caster: &Caster) {
     let expected = oracle.lit_faces(caster.light, caster.mirrored);
     let lit: Vec<bool> = (0..expected.len()).map(|face| frame.lit[face / 32] >> (face % 32) & 1 == 1).collect();
     assert_eq!(lit, expected, "lit faces");
-    assert_eq!(silhouette(&topology, &frame), oracle.silhouette(caster.light, caster.mirrored), "silhouette");
+    assert_eq!(silhouette(topology, frame), oracle.silhouette(caster.light, caster.mirrored), "silhouette");
     let open = open_vertices(&topology.edges, &frame.silhouettes);
     assert!(open.is_empty(), "open at vertices {open:?}");
-    check_smoothies(&topology, &frame);
+    check_smoothies(topology, frame);
 }
 
 /// By ascending (low, high) vertex, as the oracle has it.
@@ -64,5 +66,48 @@ fn check_smoothies(topology: &TopologyAwareMesh, frame: &FrameOutputs) {
         let Corner { apex_ndc, begin, middle, end, width_ndc, q, .. } = *corner;
         let numbers = [apex_ndc, begin, middle, end, [width_ndc, q]];
         assert!(numbers.as_flattened().iter().all(|number| number.is_finite()), "{corner:?}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use contrejour_mesh::Motion;
+    use glam::DVec3;
+
+    use super::*;
+    use crate::Lens;
+    use crate::planted::{Planted, assert_found};
+
+    #[test]
+    fn a_wrong_frame_is_found() {
+        let tetrahedron = Caster {
+            positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+            light: [3.0, 2.5, 2.0, 1.0],
+            mirrored: false,
+            motion: Motion::Rigid,
+            weld_distance: None,
+            lens: Lens { target: DVec3::ZERO, cone_angle: 1.0, near: 0.1, far: 10.0, radius: 0.1 },
+        };
+        let topology =
+            TopologyAwareMesh::build(&tetrahedron.positions, &tetrahedron.triangles, &BuildOptions::default());
+        let topology = topology.expect("a good mesh");
+        let good = tetrahedron.frame(&topology);
+        check_frame(&tetrahedron, &topology, &good);
+        let faults: [Planted<FrameOutputs>; 8] = [
+            ("lit faces", |frame| frame.lit[0] ^= 1),
+            ("silhouette", |frame| frame.silhouettes.truncate(1)),
+            ("silhouette", |frame| frame.silhouettes[1].left += 1),
+            ("silhouette", |frame| frame.silhouettes.push(frame.silhouettes[0])),
+            ("Quad", |frame| frame.quads[0].width_ndc[1] = f32::NAN),
+            ("Corner", |frame| frame.corners[2].middle[0] = f32::INFINITY),
+            ("Counters", |frame| frame.counters.quads += 100),
+            ("Counters", |frame| frame.counters.corners += 100),
+        ];
+        for (told, fault) in faults {
+            let mut frame = good.clone();
+            fault(&mut frame);
+            assert_found(told, || check_frame(&tetrahedron, &topology, &frame));
+        }
     }
 }
