@@ -42,7 +42,7 @@ pub use judge::{
 pub use local_space::LocalSpace;
 pub use measurements::{Measurements, Spread, StageCost};
 pub use png::save_png;
-pub use readback::{ReadError, read_buffer, read_texture};
+pub use readback::{ReadError, read_buffer, read_rows, read_texture};
 pub use renderer::Renderer;
 pub use save::{SaveError, save_file};
 pub use scene_meshes::MeshTooLarge;

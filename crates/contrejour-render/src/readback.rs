@@ -40,21 +40,52 @@ pub fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8
 ///
 /// [`ReadError`] when the device fails.
 pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_texel: u32) -> Result<Vec<u8>, ReadError> {
-    let row = texture.width() * bytes_per_texel;
+    let mut bytes = Vec::new();
+    read_rows(gpu, texture, bytes_per_texel, |row| bytes.extend_from_slice(row))?;
+    Ok(bytes)
+}
+
+/// What is copied at once where a texture may be copied in parts. Unit: bytes.
+const PART_MAX: u32 = 1 << 26;
+
+/// Hands out the rows of [`read_texture`] one by one, so that no whole copy is held but of depth.
+///
+/// # Errors
+///
+/// [`ReadError`] when the device fails.
+pub fn read_rows(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    bytes_per_texel: u32,
+    mut take: impl FnMut(&[u8]),
+) -> Result<(), ReadError> {
+    let (width, height) = (texture.width(), texture.height());
+    let row = width * bytes_per_texel;
     let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let staging = staging_buffer(gpu, u64::from(padded_row) * u64::from(texture.height()));
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_texture_to_buffer(
-        texture.as_image_copy(),
-        wgpu::TexelCopyBufferInfo {
-            buffer: &staging,
-            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded_row), rows_per_image: None },
-        },
-        texture.size(),
-    );
-    gpu.queue.submit([encoder.finish()]);
-    let padded = read_staging(gpu, &staging)?;
-    Ok(padded.chunks_exact(padded_row as usize).flat_map(|padded| &padded[..row as usize]).copied().collect())
+    // WebGPU copies depth as a whole.
+    let rows_at_once =
+        if texture.format().has_depth_aspect() { height } else { (PART_MAX / padded_row).clamp(1, height) };
+    for begin in (0..height).step_by(rows_at_once as usize) {
+        let rows = rows_at_once.min(height - begin);
+        let staging = staging_buffer(gpu, u64::from(padded_row) * u64::from(rows));
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_texture_to_buffer(
+            wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: begin, z: 0 }, ..texture.as_image_copy() },
+            wgpu::TexelCopyBufferInfo {
+                buffer: &staging,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded_row),
+                    rows_per_image: None,
+                },
+            },
+            wgpu::Extent3d { width, height: rows, depth_or_array_layers: 1 },
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let padded = read_staging(gpu, &staging)?;
+        padded.chunks_exact(padded_row as usize).for_each(|padded| take(&padded[..row as usize]));
+    }
+    Ok(())
 }
 
 /// Reads a texture of four bytes a texel as a picture.

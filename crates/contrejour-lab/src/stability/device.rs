@@ -8,7 +8,7 @@ use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, ShadowOptio
 use contrejour_layout::{CasterLight, Corner, Counters, LightView, Quad, ReceiverView, SilhouetteEdge};
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError};
 use contrejour_plan::{BufferKind, Light, ShadowSettings};
-use contrejour_render::{Gpu, read_buffer, read_texture};
+use contrejour_render::{Gpu, read_buffer, read_rows};
 use glam::DMat4;
 use half::f16;
 
@@ -170,8 +170,8 @@ impl<'a> DeviceFrame<'a> {
         ];
         let mut count = 0;
         for texture in textures.into_iter().flatten() {
-            let bytes_per_texel = bytes_per_texel(texture.format());
-            count += non_finite(&floats(texture.format(), &read_texture(self.gpu, texture, bytes_per_texel)?));
+            let format = texture.format();
+            read_rows(self.gpu, texture, bytes_per_texel(format), |row| count += non_finite(&floats(format, row)))?;
         }
         Ok(count)
     }

@@ -112,6 +112,8 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
         row.gaps = gaps.reduce(u64::max).map(|gaps| gaps + missing);
     }
     explain(row, &device.shadows);
+    // Before it is looked at with maps of its own: large ones would stand twice.
+    drop(device);
     if let Some(camera) = case.seen_from
         && let Some(sight) = look(gpu, case, camera)?
     {

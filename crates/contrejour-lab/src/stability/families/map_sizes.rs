@@ -8,23 +8,22 @@ use crate::report::Scale;
 
 pub(super) const MAP_SIZES: Family = Family {
     name: "map-sizes",
-    stresses: "Maps from no texel, which is refused, by 8192, which every device holds, to one texel more than this device's \
-               largest map, which is refused too.",
+    stresses: "Maps from no texel, which is refused, to this device's largest or 16384, and one texel more than the device \
+               allows, which is refused too.",
     parameter: "texels along the map's side",
     scale: Scale::Log,
     cases,
 };
 
-/// The largest that is drawn, which every device holds: more takes gigabytes on some.
-const LARGEST: u32 = 8192;
+/// From no texel to a map whose depth alone is a gigabyte.
+const SIZES: [u32; 17] = [0, 1, 2, 3, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16_384];
 
 /// Below this, a texel is so large that its bias swallows the shadow.
 const SMALL: u32 = 64;
 
 fn cases(effort: &Effort) -> Vec<Case> {
-    let refused = effort.largest_map + 1;
-    let sizes =
-        [0, 1, 2, 3, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, LARGEST.min(effort.largest_map), refused];
+    let sizes = SIZES.into_iter().filter(|size| *size <= effort.largest_map);
+    let sizes: Vec<_> = sizes.chain([effort.largest_map + 1]).collect();
     let cases = effort.some_of(&sizes).into_iter().flat_map(|size| {
         lamp_and_sky().map(|(light_name, light)| {
             let mut case = plate_over_floor(format!("{size}, {light_name}"), f64::from(size), HEIGHT, light);
