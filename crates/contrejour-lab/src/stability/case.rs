@@ -1,7 +1,7 @@
 //! One thing to try.
 
 use contrejour_oracle::GapSearch;
-use contrejour_plan::{Light, ShadowSettings};
+use contrejour_plan::{Light, ShadowSettings, SmoothieSettings, Technique};
 use contrejour_scene::Camera;
 use glam::DMat4;
 
@@ -47,7 +47,12 @@ impl Case {
             at,
             meshes: vec![mesh],
             light,
-            settings: ShadowSettings { map_size: MAP_SIZE, ..ShadowSettings::default() },
+            // As wide as the light asks, up to the map's side.
+            settings: ShadowSettings {
+                map_size: MAP_SIZE,
+                technique: Technique::Smoothies(SmoothieSettings::DEFAULT),
+                ..ShadowSettings::default()
+            },
             gap_search: Some(GapSearch { directions: 180, max_vertices: 300, ..GapSearch::default() }),
             seen_from: None,
             degrades: String::new(),

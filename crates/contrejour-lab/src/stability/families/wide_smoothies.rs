@@ -18,7 +18,9 @@ pub(super) const WIDE_SMOOTHIES: Family = Family {
 const MAP_SIDE: f64 = 2.0;
 
 fn cases(effort: &Effort) -> Vec<Case> {
-    let cases = effort.powers_of_ten(-9, 37, 2).into_iter().flat_map(|(name, width)| {
+    // Densely where smoothies become as wide as the map.
+    let widths = [(-9, -3, 2), (-1, 2, 1), (3, 37, 2)].map(|(from, to, step)| effort.powers_of_ten(from, to, step));
+    let cases = widths.into_iter().flatten().flat_map(|(name, width)| {
         let blocker = LAMP - HEIGHT;
         let radius = width * blocker * (0.5 * CONE).tan();
         let angle = (width * HALF_EXTENT / (LAMP + HEIGHT)).atan();
