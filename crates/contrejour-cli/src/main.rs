@@ -32,7 +32,7 @@ fn main() -> ExitCode {
     };
     let result = output::report_large_files().and_then(|()| run(arguments.command));
     result.unwrap_or_else(|error| {
-        eprintln!("contrejour: {}", one_line(error.as_ref()));
+        output::tell(&format!("contrejour: {}", one_line(error.as_ref())));
         ExitCode::from(2)
     })
 }
@@ -61,7 +61,7 @@ fn told_by_clap(error: &clap::Error) -> ExitCode {
         let _ = error.print();
         return if shows_help { ExitCode::from(2) } else { ExitCode::SUCCESS };
     }
-    eprintln!("contrejour: {}", usage_line(&error.to_string()));
+    output::tell(&format!("contrejour: {}", usage_line(&error.to_string())));
     ExitCode::from(2)
 }
 

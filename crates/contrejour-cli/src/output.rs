@@ -38,7 +38,12 @@ pub fn write_or_print(text: &str, path: Option<&Path>) -> Result<(), Failure> {
     }
 }
 
+/// Prints a line on standard error. Nothing can be done where that is closed or full, and nothing is lost but the line.
+pub fn tell(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
 /// Tells something that does not end the program.
 pub fn warn(text: &str) {
-    eprintln!("note: {}", text.split_whitespace().collect::<Vec<_>>().join(" "));
+    tell(&format!("note: {}", text.split_whitespace().collect::<Vec<_>>().join(" ")));
 }

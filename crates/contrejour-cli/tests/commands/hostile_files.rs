@@ -53,6 +53,7 @@ pub fn trials() -> Vec<Trial> {
     trials.push(cpu_trial("hostile_files::a_name_that_is_too_long", a_long_name_is_refused));
     trials.push(cpu_trial("hostile_files::a_library_that_is_a_pipe_is_left_out", a_library_that_is_a_pipe_is_left_out));
     trials.push(cpu_trial("hostile_files::nothing_can_be_printed", nothing_can_be_printed));
+    trials.push(cpu_trial("hostile_files::nothing_can_be_told", nothing_can_be_told));
     trials.push(cpu_trial("hostile_files::a_full_disk_leaves_the_older_file", a_full_disk_leaves_the_older_file));
     trials.push(cpu_trial("hostile_files::no_permission", no_permission));
     trials.push(cpu_trial("hostile_files::no_device", no_device));
@@ -120,6 +121,21 @@ fn nothing_can_be_printed() -> Outcome {
     }
     let line = Folder::with(&[FACE]).run_in_shell("exec \"$@\" >/dev/full", "inspect face.obj").refusal()?;
     if line.contains("cannot print") { Ok(()) } else { Err(line) }
+}
+
+/// A warning or a refusal that reaches nobody changes nothing else.
+fn nothing_can_be_told() -> Outcome {
+    if !cfg!(target_os = "linux") {
+        return Ok(());
+    }
+    let open = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nmtllib missing.mtl\n";
+    let folder = Folder::with(&[("open.obj", open)]);
+    for (arguments, status) in
+        [("inspect open.obj", 0), ("inspect missing.obj", 2), ("bogus", 2), ("render --size 0x0", 2)]
+    {
+        folder.run_in_shell("exec \"$@\" 2>/dev/full", arguments).ends_with(status)?;
+    }
+    Ok(())
 }
 
 /// A limit on the size of files stands for a disk without room: 512 or 1024 bytes, as the shell counts.

@@ -120,6 +120,14 @@ impl Run {
         serde_json::from_str(&self.stdout()?).map_err(|error| self.wrong(&format!("it should print JSON: {error}")))
     }
 
+    /// Checks the exit status.
+    pub fn ends_with(&self, status: i32) -> Result<(), String> {
+        match self.output.status.code() == Some(status) {
+            true => Ok(()),
+            false => Err(self.wrong(&format!("it should end with {status}"))),
+        }
+    }
+
     /// The one line on standard error of a run that ended with 2 and printed nothing else.
     pub fn refusal(&self) -> Result<String, String> {
         if self.output.status.code() != Some(2) {
