@@ -44,7 +44,7 @@ pub use measurements::{Measurements, Spread, StageCost};
 pub use png::save_png;
 pub use readback::{ReadError, read_buffer, read_rows, read_texture};
 pub use renderer::Renderer;
-pub use save::{SaveError, save_file};
+pub use save::{SaveError, check_folder, save_file};
 pub use scene_meshes::MeshTooLarge;
 pub use silhouettes::read_silhouettes;
 pub use stage_timer::PassTime;

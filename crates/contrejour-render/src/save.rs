@@ -43,13 +43,24 @@ pub enum SaveError {
 }
 
 /// Writes a file as a whole or not at all: under another name first, which is then changed. Its folder is made where
-/// it is missing; a link stays and what it names is written. Devices and pipes are written to as they are.
+/// it is missing; a link to a file stays and the file is written. Devices and pipes are written to as they are.
 ///
 /// # Errors
 ///
 /// [`SaveError`]; an older file of the same name then stays as it was.
 pub fn save_file(bytes: &[u8], path: &Path) -> Result<(), SaveError> {
     save(path, |file| file.write_all(bytes))
+}
+
+/// Makes a folder where it is missing, and sees that files can be made in it: before hours of work that end there.
+///
+/// # Errors
+///
+/// [`SaveError`] where no folder can be made or no file in it.
+pub fn check_folder(folder: &Path) -> Result<(), SaveError> {
+    fs::create_dir_all(folder).map_err(|source| SaveError::Folder { path: folder.into(), source })?;
+    let made = tempfile::tempfile_in(folder);
+    made.map(drop).map_err(|source| SaveError::Write { path: folder.into(), source })
 }
 
 /// Writes a file with `write`, whose error leaves the file as it was.
@@ -83,6 +94,10 @@ fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     // Removed where it is dropped.
     let mut unfinished = builder.tempfile_in(folder_of(path))?;
+    // A private file stays private.
+    if let Ok(older) = fs::metadata(path) {
+        unfinished.as_file().set_permissions(older.permissions())?;
+    }
     write(&mut unfinished)?;
     // Some file systems find room only now.
     unfinished.as_file().sync_all()?;
@@ -132,6 +147,28 @@ mod tests {
             write(&mut file).expect_err("the disk is full");
         });
         assert_eq!(left, [b"half a "]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_private_file_stays_private() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().expect("there is room for a folder");
+        let path = folder.path().join("out.json");
+        fs::write(&path, OLD).expect("the folder can be written");
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).expect("it is ours");
+        save_file(b"new", &path).expect("the folder can be written");
+        let mode = fs::metadata(&path).expect("it was written").permissions().mode();
+        assert_eq!(mode & 0o777, 0o600);
+    }
+
+    #[test]
+    fn a_folder_that_can_be_none_is_refused() {
+        let folder = tempfile::tempdir().expect("there is room for a folder");
+        check_folder(&folder.path().join("a/b")).expect("it can be made");
+        assert_eq!(fs::read_dir(folder.path().join("a/b")).expect("it was made").count(), 0);
+        fs::write(folder.path().join("file"), OLD).expect("the folder can be written");
+        assert!(matches!(check_folder(&folder.path().join("file")), Err(SaveError::Folder { .. })));
     }
 
     #[test]
