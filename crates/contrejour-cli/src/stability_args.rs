@@ -36,7 +36,8 @@ fn after_help() -> String {
     let families = FAMILIES.map(|family| format!("  {:width$}  {}\n", family.name, family.stresses)).concat();
     format!(
         "Families:\n{families}\nExit status: 0 when no case has a sign error, an open cycle, a gap, a number that is not \
-         finite or a large error without a reason; 1 when one has; 2 when something is wrong. The last line that is printed is the path of the page."
+         finite, an error beyond what is explained, or a refusal that is not due; 1 when one has; 2 when something \
+         is wrong. The last line that is printed is the path of the page."
     )
 }
 

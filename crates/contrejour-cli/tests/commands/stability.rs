@@ -1,6 +1,6 @@
 //! `contrejour stability`: what it writes, and what it refuses.
 
-use contrejour_lab::stability::COLUMNS;
+use contrejour_lab::stability::{COLUMNS, FAMILIES};
 use libtest_mimic::Trial;
 
 use crate::program::Folder;
@@ -10,6 +10,8 @@ pub fn trials() -> Vec<Trial> {
     vec![
         cpu_trial("stability::what_is_no_family_is_refused", nonsense_is_refused),
         gpu_trial("stability::writes_table_and_page_and_finds_no_fault", table_and_page_are_written),
+        gpu_trial("stability::no_family_has_a_fault", no_family_has_a_fault),
+        gpu_trial("stability::results_need_a_folder", results_need_a_folder),
     ]
 }
 
@@ -26,6 +28,22 @@ fn nonsense_is_refused() -> Outcome {
         }
     }
     if folder.names().is_empty() { Ok(()) } else { Err(format!("files were left: {:?}", folder.names())) }
+}
+
+/// Every family, quickly, but for those that are tried above.
+fn no_family_has_a_fault() -> Outcome {
+    let families = FAMILIES.map(|family| family.name).into_iter();
+    let families: Vec<_> = families.filter(|name| !["scale", "distance", "few-faces"].contains(name)).collect();
+    let told = Folder::new().run(&format!("stability {} --quick -o out --json", families.join(" "))).json()?;
+    if told["families"] != families.len() || told["faulty"] != 0 {
+        return Err(format!("a fault, or a family that was not tried: {told}"));
+    }
+    Ok(())
+}
+
+/// Refused in the only line: before a case is tried, not after the last one.
+fn results_need_a_folder() -> Outcome {
+    Folder::with(&[("taken", "an older file")]).refuses("stability -o taken", &["taken"])
 }
 
 /// Among the cases are the largest numbers of the type, a mesh far from the origin, refusals and meshes of no face.

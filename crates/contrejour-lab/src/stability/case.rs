@@ -26,6 +26,10 @@ pub struct Case {
     pub seen_from: Option<Camera>,
     /// Why the definition does not hold here, in a sentence; empty where it does.
     pub degrades: String,
+    /// The largest error of visibility that is no fault: more where a reason says so.
+    pub visibility_error_max: f64,
+    /// Whether the library must refuse the case. Everywhere else it must not.
+    pub is_refused: bool,
 }
 
 /// A mesh in its place.
@@ -56,6 +60,8 @@ impl Case {
             gap_search: Some(GapSearch { directions: 180, max_vertices: 300, ..GapSearch::default() }),
             seen_from: None,
             degrades: String::new(),
+            visibility_error_max: VISIBILITY_ERROR_MAX,
+            is_refused: false,
         }
     }
 
@@ -66,11 +72,20 @@ impl Case {
         self
     }
 
+    /// Adds a reason for an error of visibility, which may be so large.
+    pub fn explain_error(&mut self, visibility_error_max: f64, reason: &str) {
+        self.visibility_error_max = self.visibility_error_max.max(visibility_error_max);
+        self.explain(reason);
+    }
+
     /// Adds a reason why the definition does not hold.
     pub fn explain(&mut self, reason: &str) {
         add_reason(&mut self.degrades, reason);
     }
 }
+
+/// What a few texels and the shape of the penumbra make.
+const VISIBILITY_ERROR_MAX: f64 = 0.06;
 
 /// Texels along the map's side, where a family does not vary them.
 const MAP_SIZE: u32 = 512;

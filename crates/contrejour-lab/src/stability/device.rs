@@ -120,11 +120,13 @@ impl<'a> DeviceFrame<'a> {
         let corners: Vec<Corner> = self.counted(BufferKind::Corners, |counters| counters.corners)?;
         let caster_lights: Vec<CasterLight> = self.records(BufferKind::CasterLights)?;
         let light_view: Vec<LightView> = self.records(BufferKind::LightView)?;
+        let planes: Vec<[f32; 4]> = self.records(BufferKind::Planes)?;
         let receiver_view: Vec<ReceiverView> = self.records(BufferKind::ReceiverView)?;
         let of_records = non_finite(&quads)
             + non_finite(&corners)
             + non_finite(&caster_lights)
             + non_finite(&light_view)
+            + non_finite(&planes)
             + non_finite(&receiver_view);
         Ok(DeviceOutputs {
             lit: self.shadows.buffer(BufferKind::Lit).map(|_| self.records(BufferKind::Lit)).transpose()?,

@@ -26,9 +26,9 @@ pub struct Findings {
     pub non_finite: u64,
     /// Rows with a reason why the definition does not hold, or with a refusal.
     pub degraded: usize,
-    /// Rows with a large error of width or visibility and without a reason.
-    pub unexplained: usize,
-    /// Rows with a sign error, an open cycle, a gap, a number that is not finite or a large error without a reason.
+    /// Rows with an error beyond what their reasons allow, or with a refusal where none is due or none where one is.
+    pub surprises: usize,
+    /// Rows with a sign error, an open cycle, a gap, a number that is not finite or a surprise.
     pub faulty: usize,
 }
 
@@ -51,7 +51,7 @@ impl Stability {
             gaps: sum(|row| row.gaps),
             non_finite: sum(|row| row.non_finite),
             degraded: self.rows().filter(|row| !row.degrades.is_empty()).count(),
-            unexplained: self.rows().filter(|row| !row.unexplained().is_empty()).count(),
+            surprises: self.rows().filter(|row| !row.surprises().is_empty()).count(),
             faulty: self.rows().filter(|row| row.faults() > 0).count(),
         }
     }
@@ -67,9 +67,7 @@ impl Stability {
             ];
             let cells = cells.into_iter().filter_map(|(name, count)| Some((name, count.filter(|count| *count > 0)?)));
             let counts = cells.map(|(name, count)| format!("{count} {name}"));
-            let unexplained =
-                row.unexplained().into_iter().map(|(name, error)| format!("{name} {error:.4} without a reason"));
-            let told: Vec<_> = counts.chain(unexplained).collect();
+            let told: Vec<_> = counts.chain(row.surprises()).collect();
             format!("{} at {}: {}", row.family, row.parameter, told.join(", "))
         };
         self.rows().filter(|row| row.faults() > 0).map(told).collect()

@@ -33,11 +33,13 @@ pub(super) fn measure(gpu: &Gpu, family: &Family, case: &Case) -> Result<Row, Ca
         parameter: case.parameter.clone(),
         at: case.at,
         degrades: case.degrades.clone(),
+        visibility_error_max: case.visibility_error_max,
+        refusal_is_due: case.is_refused,
         ..Row::default()
     };
     match tried(gpu, case, &mut row) {
         Ok(()) => Ok(row),
-        Err(Ended::Refused(refusal)) => Ok(Row { degrades: refusal.to_string(), ..row }),
+        Err(Ended::Refused(refusal)) => Ok(Row { degrades: refusal.to_string(), is_refused: true, ..row }),
         Err(Ended::Failed(error)) => Err(error),
     }
 }
@@ -94,22 +96,21 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
 
     // What is drawn.
     row.non_finite = Some(found.non_finite + non_finite(&twin.quads) + non_finite(&twin.corners));
-    let drawn = [(&found.quads, &found.corners), (&twin.quads, &twin.corners)];
-    let lists = [(&found.silhouettes, &found.quads), (&twin.silhouettes, &twin.quads)];
-    let has_image = |edge: &&SilhouetteEdge| frame.caster_lights[edge.caster as usize].has_image();
-    let missing = lists.map(|(edges, quads)| {
-        let edges: Vec<_> = edges.iter().filter(has_image).copied().collect();
-        missing_quads(&view, &meshes, &edges, quads)
-    });
-    let missing: u64 = missing.iter().sum();
     if let Some(definition) = WidthDefinition::new(&view, &case.settings) {
+        let drawn = [(&found.quads, &found.corners), (&twin.quads, &twin.corners)];
         let errors = drawn.iter().filter_map(|(quads, corners)| definition.error(&meshes, quads, corners));
         row.width_error = errors.reduce(f64::max);
-    }
-    if let Some(search) = &case.gap_search {
-        let blockers = blockers(&meshes, &frame);
-        let gaps = drawn.iter().map(|(quads, corners)| gaps(quads, corners, &blockers, search));
-        row.gaps = gaps.reduce(u64::max).map(|gaps| gaps + missing);
+
+        let has_image = |edge: &&SilhouetteEdge| frame.caster_lights[edge.caster as usize].has_image();
+        let missing = [(&found.silhouettes, &found.quads), (&twin.silhouettes, &twin.quads)].map(|(edges, quads)| {
+            let edges: Vec<_> = edges.iter().filter(has_image).copied().collect();
+            missing_quads(&view, &meshes, &edges, quads)
+        });
+        let points = case.gap_search.as_ref().and_then(|search| {
+            let blockers = blockers(&meshes, &frame);
+            drawn.iter().map(|(quads, corners)| gap_points(quads, corners, &blockers, search)).max()
+        });
+        row.gaps = missing.into_iter().max().map(|missing| missing + points.unwrap_or(0));
     }
     explain(row, &device.shadows);
     // Before it is looked at with maps of its own: large ones would stand twice.
@@ -124,7 +125,7 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
     Ok(())
 }
 
-fn gaps(quads: &[Quad], corners: &[Corner], blockers: &[[DVec2; 3]], search: &GapSearch) -> u64 {
+fn gap_points(quads: &[Quad], corners: &[Corner], blockers: &[[DVec2; 3]], search: &GapSearch) -> u64 {
     outline_gaps(quads, corners, blockers, search).len() as u64
 }
 

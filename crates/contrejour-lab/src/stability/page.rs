@@ -67,7 +67,7 @@ fn findings(found: &Stability) -> Markup {
         p.summary {
             (rows) " cases of " (families) " families, " (grouped(faces_tested)) " signs of faces: "
             (sums.sign_errors) " sign errors, " (sums.open_cycles) " open cycles, " (sums.gaps) " gaps, "
-            (sums.non_finite) " numbers that are not finite, " (sums.unexplained) " large errors without a reason. A bare test in 32-bit floats has "
+            (sums.non_finite) " numbers that are not finite, " (sums.surprises) " surprises. A bare test in 32-bit floats has "
             (grouped(sign_errors_f32)) " signs wrong in the same cases."
         }
         @if !faults.is_empty() {
@@ -99,7 +99,7 @@ fn error_against_time(found: &Stability) -> Result<Markup, PageError> {
         @if let Some(svg) = drawn {
             p.lead {
                 "A mark a case and test. Both tests find the lit faces of the same case on one core, taking turns: the "
-                "bare test as one determinant in 32-bit floats, the exact one as the twins of its three stages, which "
+                "bare test as one determinant in 32-bit floats, the exact one as the twins of its four tiers, which "
                 "costs more the more faces floats leave undecided. Small meshes have a fixed cost a frame on top."
             }
             div.one-plot { (PreEscaped(svg)) }
@@ -258,12 +258,13 @@ fn columns() -> Markup {
         ("open_cycles", "vertices at which the silhouette of the device or of its twin is no cycle"),
         (
             "gaps",
-            "points of the image plane beside outline vertices that neither a blocker nor a smoothie covers; of the \
-             device or of its twin, whichever has more; and outline edges in view to which either gave no quad",
+            "outline edges in view without a quad, and points of the image plane beside outline vertices that neither a \
+             blocker nor a smoothie covers; of the device or of its twin, whichever has more. Points are not looked for \
+             where a definition leaves some, around plates in a stack, and around ten million faces",
         ),
         (
             "non_finite",
-            "infinities and NaNs in all floats of quads, corners, light records and every texel of every map, in the \
+            "infinities and NaNs in all floats of quads, corners, planes, light records and every texel of every map, in the \
              twin's quads and corners, and in visibility and shaded picture of what is looked at",
         ),
         ("width_error", "largest difference of a smoothie's width at an end or corner from t(b), as a share of t(b)"),

@@ -16,6 +16,12 @@ pub(super) const CONE: f64 = 0.9;
 /// Half the side of the square that parallel light shadows.
 pub(super) const HALF_EXTENT: f64 = 2.9;
 
+/// Radius of the lamp's disk, where a family does not vary it.
+pub(super) const LAMP_RADIUS: f64 = 0.1;
+
+/// Angular radius of parallel light, where a family does not vary it. Unit: radians.
+pub(super) const SKY_RADIUS: f64 = 0.017;
+
 /// Half the side of the plate.
 pub(super) const PLATE: f64 = 0.6;
 
@@ -30,9 +36,11 @@ pub(super) fn plate_over_floor(parameter: String, at: f64, height: f64, light: L
     let mut case = Case::new(parameter, at, sheet(PLATE, height), light);
     case.meshes.push(sheet(FLOOR, 0.0));
     case.seen_from = Some(aside());
-    if penumbra_share(height, &light) > 0.1 {
-        case.explain(
-            "the light reaches behind the plate by more than a tenth of the shadow: the true umbra is so much smaller, \
+    let share = penumbra_share(height, &light);
+    if share > 0.05 {
+        case.explain_error(
+            (case.visibility_error_max + share).min(0.55),
+            "the light reaches behind the plate by more than a twentieth of the shadow: the true umbra is so much smaller, \
              while smoothies make the outer penumbra alone",
         );
     }
@@ -90,7 +98,7 @@ pub(super) fn sky(angular_radius: f64) -> Light {
 
 /// Both, with what the table calls them; penumbrae are about as wide.
 pub(super) fn lamp_and_sky() -> [(&'static str, Light); 2] {
-    [("spot", lamp(0.3)), ("parallel", sky(0.05))]
+    [("spot", lamp(LAMP_RADIUS)), ("parallel", sky(SKY_RADIUS))]
 }
 
 /// Two triangles that face upwards.

@@ -21,9 +21,6 @@ pub const COLUMNS: [&str; 12] = [
 /// Above this, an error of a smoothie's width is more than rounding.
 const WIDTH_ERROR_MAX: f64 = 1e-3;
 
-/// Above this, an error of visibility is more than what a few texels and the shape of the penumbra make.
-const VISIBILITY_ERROR_MAX: f64 = 0.06;
-
 /// One case. What a family can't say is `None`, an empty cell. The serialised fields are [`COLUMNS`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Row {
@@ -40,11 +37,11 @@ pub struct Row {
     pub sign_errors: Option<u64>,
     /// Vertices at which the silhouette of the device or of its twin is no cycle.
     pub open_cycles: Option<u64>,
-    /// Points beside outline vertices that neither a blocker nor a smoothie covers, of the device or of its twin, and
-    /// outline edges in view that either gave no quad.
+    /// Outline edges in view that the device or its twin gave no quad, and, where the family looks for them, points beside
+    /// outline vertices that neither a blocker nor a smoothie covers.
     pub gaps: Option<u64>,
-    /// Numbers that are infinite or none, in every float of the buffers and texels that the frame leaves, in what the twin
-    /// leaves, and in the visibility and the shaded picture of what is looked at.
+    /// Numbers that are infinite or none: in quads, corners, light records and all texels of all maps that the frame leaves,
+    /// in the twin's quads and corners, and in the visibility and the shaded picture of what is looked at.
     pub non_finite: Option<u64>,
     /// The largest difference between a smoothie's width and its definition, as a share of the defined width.
     pub width_error: Option<f64>,
@@ -60,6 +57,15 @@ pub struct Row {
     /// What is seen: visibility in truth and by the technique, as addresses that hold PNG pictures.
     #[serde(skip)]
     pub pictures: Option<[String; 2]>,
+    /// The largest error of visibility that is explained.
+    #[serde(skip)]
+    pub visibility_error_max: f64,
+    /// Whether the library must refuse the case.
+    #[serde(skip)]
+    pub refusal_is_due: bool,
+    /// Whether it did.
+    #[serde(skip)]
+    pub is_refused: bool,
     /// How long it takes to find the lit faces.
     #[serde(skip)]
     pub facing: Option<FacingTimes>,
@@ -76,22 +82,30 @@ pub struct FacingTimes {
 }
 
 impl Row {
-    /// What must never be: sign errors, open cycles, gaps and numbers that are not finite; and a large error of width or
-    /// visibility without a reason.
+    /// What must never be: sign errors, open cycles, gaps and numbers that are not finite; an error of width or visibility
+    /// beyond what its reasons allow; a refusal where none is due, and none where one is.
     pub fn faults(&self) -> u64 {
         let counts = [self.sign_errors, self.open_cycles, self.gaps, self.non_finite];
-        counts.into_iter().flatten().sum::<u64>() + self.unexplained().len() as u64
+        counts.into_iter().flatten().sum::<u64>() + self.surprises().len() as u64
     }
 
-    /// Errors of width or visibility that are large and have no reason, with their names.
-    pub(super) fn unexplained(&self) -> Vec<(&'static str, f64)> {
+    /// What is not as the family says it must be, each in a few words.
+    pub(super) fn surprises(&self) -> Vec<String> {
         let errors = [
             ("width error", self.width_error, WIDTH_ERROR_MAX),
-            ("visibility error", self.visibility_error, VISIBILITY_ERROR_MAX),
+            ("visibility error", self.visibility_error, self.visibility_error_max),
         ];
-        let large =
-            errors.into_iter().filter_map(|(name, error, most)| Some((name, error.filter(|&error| error > most)?)));
-        large.filter(|_| self.degrades.is_empty()).collect()
+        let large = errors.into_iter().filter_map(|(name, error, most)| {
+            // NaN is no error that is small enough.
+            let error = error.filter(|error| error.is_nan() || *error > most)?;
+            Some(format!("{name} {error:.4}, at most {most} is explained"))
+        });
+        let wrongly = match (self.refusal_is_due, self.is_refused) {
+            (false, true) => Some(format!("refused: {}", self.degrades)),
+            (true, false) => Some("not refused".to_owned()),
+            _ => None,
+        };
+        large.chain(wrongly).collect()
     }
 }
 
@@ -125,14 +139,23 @@ mod tests {
             Row { gaps: count, ..Row::default() },
             Row { non_finite: count, ..Row::default() },
             Row { width_error: Some(0.01), visibility_error: Some(0.1), ..Row::default() },
+            Row { width_error: Some(f64::NAN), visibility_error: Some(f64::NAN), ..Row::default() },
         ] {
             assert_eq!(fault.faults(), 2);
         }
-        let small = Row { width_error: Some(1e-5), visibility_error: Some(0.05), ..Row::default() };
+        let small = Row {
+            width_error: Some(1e-5),
+            visibility_error: Some(0.25),
+            visibility_error_max: 0.3,
+            degrades: "the light is large".to_owned(),
+            ..Row::default()
+        };
         assert_eq!(small.faults(), 0);
-        let mut explained = Row { width_error: Some(0.01), visibility_error: Some(0.1), ..Row::default() };
-        add_reason(&mut explained.degrades, "too wide");
-        assert_eq!(explained.faults(), 0);
+        // A reason is no excuse for everything.
+        assert_eq!(Row { visibility_error: Some(0.31), ..small.clone() }.faults(), 1);
+        assert_eq!(Row { is_refused: true, ..small.clone() }.faults(), 1);
+        assert_eq!(Row { refusal_is_due: true, ..small.clone() }.faults(), 1);
+        assert_eq!(Row { refusal_is_due: true, is_refused: true, ..small }.faults(), 0);
         assert_eq!(Row { sign_errors_f32: count, ..Row::default() }.faults(), 0);
     }
 }

@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use contrejour_render::Gpu;
+use contrejour_render::{Gpu, check_folder};
 use serde::Serialize;
 
 use super::effort::Effort;
 use super::error::StabilityError;
 use super::event::Event;
 use super::family::{Family, families};
+use super::files::WriteError;
 use super::measure::measure;
 use super::row::Row;
 use crate::report::Extent;
@@ -76,6 +77,7 @@ pub struct FamilyRows {
 /// A name that no family has, a device that fails, a folder that can't be written to.
 pub fn run(gpu: &Gpu, options: &Options, tell: &dyn Fn(&Event)) -> Result<Stability, StabilityError> {
     let asked = families(&options.families)?;
+    check_folder(&options.folder).map_err(WriteError::from)?;
     let effort = Effort { largest_map: gpu.facts().max_texture_dimension_2d, ..options.effort };
     let mut found = Stability { header: header(gpu, options), families: Vec::new() };
     for family in &asked {

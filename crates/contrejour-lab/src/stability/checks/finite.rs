@@ -70,6 +70,13 @@ impl Floats for ReceiverView {
     }
 }
 
+/// A plane, with its constant.
+impl Floats for [f32; 4] {
+    fn floats(&self) -> impl Iterator<Item = f32> {
+        self.iter().copied()
+    }
+}
+
 impl Floats for f32 {
     fn floats(&self) -> impl Iterator<Item = f32> {
         [*self].into_iter()

@@ -49,7 +49,8 @@ impl WidthDefinition {
             let defined = self.at_depth(self.depth(clip));
             (f64::from(width) - defined).abs() / defined
         });
-        errors.reduce(f64::max)
+        // A maximum of floats drops NaN.
+        errors.map(|error| if error.is_nan() { f64::INFINITY } else { error }).reduce(f64::max)
     }
 
     fn clip(&self, meshes: &[DeviceMesh], caster: u32, vertex: u32) -> DVec4 {

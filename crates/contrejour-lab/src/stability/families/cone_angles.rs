@@ -1,5 +1,7 @@
 //! Cones from a needle to all that a plane can show.
 
+use std::f64::consts::PI;
+
 use contrejour_plan::{LightKind, views};
 use glam::DVec3;
 
@@ -42,6 +44,7 @@ fn case(name: String, cone: f64) -> Case {
     camera.fov_y = 2.0 * (0.5 * shown / camera.eye.length()).atan();
     case.seen_from = Some(camera);
     explain(&mut case);
+    case.is_refused = cone < f64::from(f32::MIN_POSITIVE) || cone >= PI;
     case
 }
 
@@ -55,9 +58,12 @@ fn explain(case: &mut Case) {
     let Ok(views) = views(&case.light) else { return };
     let view = &views[0];
     if view.light_size / (LAMP - HEIGHT) > 2.0 {
-        case.explain("the cone sees less than the smoothie, whose width is held to the map's side");
+        case.explain_error(0.5, "the cone sees less than the smoothie, whose width is held to the map's side");
     }
     if view.texel_world(case.settings.map_size) * LAMP > 0.1 * HEIGHT {
-        case.explain("a texel is larger than a tenth of the plate's height: its depth bias swallows the shadow");
+        case.explain_error(
+            0.45,
+            "a texel is larger than a tenth of the plate's height: its depth bias swallows the shadow",
+        );
     }
 }

@@ -23,7 +23,8 @@ fn cases(effort: &Effort) -> Vec<Case> {
         lamp_and_sky().map(|(light_name, light)| {
             let mut case = plate_over_floor(format!("{name}, {light_name}"), share, LAMP * share, light);
             if LAMP * share <= bias(&light, &case.settings) {
-                case.explain(
+                case.explain_error(
+                    0.3,
                     "the gap is less than the depth bias, within which the map can't tell the blocker from its \
                      receiver: no smoothie is kept, and the shadow begins later",
                 );

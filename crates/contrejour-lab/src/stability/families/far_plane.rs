@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::super::case::Case;
 use super::super::effort::Effort;
 use super::super::family::Family;
-use super::super::plates::{HEIGHT, LAMP, lamp, plate_over_floor, sky};
+use super::super::plates::{HEIGHT, LAMP, LAMP_RADIUS, SKY_RADIUS, lamp, plate_over_floor, sky};
 use crate::report::Scale;
 
 pub(super) const FAR_PLANE: Family = Family {
@@ -34,7 +34,7 @@ fn cases(effort: &Effort) -> Vec<Case> {
 }
 
 fn spot(share: f64) -> Light {
-    let mut light = lamp(0.3);
+    let mut light = lamp(LAMP_RADIUS);
     if let LightKind::Spot { far, .. } = &mut light.kind {
         *far = LAMP * (1.0 + share);
     }
@@ -43,7 +43,7 @@ fn spot(share: f64) -> Light {
 
 /// From `LAMP` over the floor to the plane.
 fn parallel(share: f64) -> Light {
-    let mut light = sky(0.05);
+    let mut light = sky(SKY_RADIUS);
     if let LightKind::Directional { center, half_depth, .. } = &mut light.kind {
         *half_depth = 0.5 * LAMP * (1.0 + share);
         *center = DVec3::new(0.0, LAMP - *half_depth, 0.0);

@@ -12,12 +12,13 @@ mod overlaps;
 mod projections;
 mod shapes;
 mod sizes;
+mod techniques;
 mod wide_smoothies;
 
 use super::family::Family;
 
 /// All families, in the order of the page.
-pub const FAMILIES: [Family; 27] = [
+pub const FAMILIES: [Family; 28] = [
     sizes::SCALE,
     sizes::DISTANCE,
     shapes::SLIVERS,
@@ -45,4 +46,5 @@ pub const FAMILIES: [Family; 27] = [
     cone_angles::CONE_ANGLES,
     overlaps::OVERLAPS,
     intensity::INTENSITY,
+    techniques::TECHNIQUES,
 ];

@@ -4,7 +4,7 @@ use super::super::case::{Case, CaseMesh};
 use super::super::effort::Effort;
 use super::super::family::Family;
 use super::super::plates::{HEIGHT, PLATE, lamp_and_sky, plate_over_floor, sheet};
-use crate::report::Scale;
+use crate::report::{Extent, Scale};
 
 pub(super) const OVERLAPS: Family = Family {
     name: "overlaps",
@@ -19,7 +19,9 @@ pub(super) const OVERLAPS: Family = Family {
 const THICKNESS: f64 = 0.01;
 
 fn cases(effort: &Effort) -> Vec<Case> {
-    let cases = effort.powers_of_ten(0, 4, 1).into_iter().flat_map(|(name, count)| {
+    // The most take a minute.
+    let most = if effort.extent == Extent::Quick { 2 } else { 4 };
+    let cases = effort.powers_of_ten(0, most, 1).into_iter().flat_map(|(name, count)| {
         lamp_and_sky().map(|(light_name, light)| {
             let mut case = plate_over_floor(format!("{name}, {light_name}"), count, HEIGHT, light);
             case.meshes[0] = stack(count as u32);

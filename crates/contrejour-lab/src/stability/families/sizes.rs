@@ -27,7 +27,13 @@ pub(super) const DISTANCE: Family = Family {
 
 fn scale(effort: &Effort) -> Vec<Case> {
     let scales = effort.powers_of_ten(-45, 38, 3);
-    scales.into_iter().flat_map(|(name, scale)| ring_cases(&name, scale, scale, DVec3::ZERO)).collect()
+    let cases = scales.into_iter().flat_map(|(name, scale)| {
+        let [spot, parallel] = ring_cases(&name, scale, scale, DVec3::ZERO);
+        // Depths and extents below the smallest normal number, and a far plane whose inverse is.
+        let is_too_small = scale < 1e-38;
+        [Case { is_refused: is_too_small || scale > 1e37, ..spot }, Case { is_refused: is_too_small, ..parallel }]
+    });
+    cases.collect()
 }
 
 /// From where on neighbours of the ring, a tenth of its size apart, are fewer than ten 32-bit numbers apart.
@@ -50,8 +56,9 @@ fn distance(effort: &Effort) -> Vec<Case> {
     none.into_iter().chain(distances).collect()
 }
 
-fn ring_cases(parameter: &str, at: f64, scale: f64, offset: DVec3) -> Vec<Case> {
+/// Under a spot and under parallel light.
+fn ring_cases(parameter: &str, at: f64, scale: f64, offset: DVec3) -> [Case; 2] {
     let mesh = ring(scale, offset);
     let lights = both(offset, scale * RING_RADIUS);
-    lights.map(|(light_name, light)| Case::new(format!("{parameter}, {light_name}"), at, mesh.clone(), light)).to_vec()
+    lights.map(|(light_name, light)| Case::new(format!("{parameter}, {light_name}"), at, mesh.clone(), light))
 }
