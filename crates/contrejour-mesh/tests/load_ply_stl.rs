@@ -121,12 +121,14 @@ fn broken_stl_files_name_the_place() {
     infinite[1][2][0] = f32::INFINITY;
     let cut_off = &binary_stl(b"x", &FACETS)[..180];
     let infinite = binary_stl(b"x", &infinite);
-    let cases: [(&[u8], &str); 6] = [
+    let six_corners = format!("solid\nfacet\n{}endfacet\n", "vertex 0 0 0\n".repeat(6));
+    let cases: [(&[u8], &str); 7] = [
         (cut_off, "binary STL: needs 184 bytes"),
         (b"too short", "binary STL: needs 84 bytes"),
         (&infinite, "facet 1: a coordinate"),
         (b"solid\nfacet\nvertex 0 0\n", "line 3: a vertex"),
         (b"solid\nvertex 0 0 0\nvertex 1 0 0\nendfacet\n", "line 4: a facet"),
+        (six_corners.as_bytes(), "line 9: a facet"),
         (b"solid\nvertex 0 0 0\n", "line 2: the file ends"),
     ];
     for (bytes, expected) in cases {

@@ -82,6 +82,7 @@ fn text_corners(text: &str, path: &Path) -> Result<Vec<[f32; 3]>, LoadError> {
         problem: problem.into(),
     };
     let mut positions = Vec::new();
+    let mut facet_begin = 0;
     let mut last_line = 0;
     for (index, content) in text.lines().enumerate() {
         let line = index + 1;
@@ -98,10 +99,13 @@ fn text_corners(text: &str, path: &Path) -> Result<Vec<[f32; 3]>, LoadError> {
                 }
                 positions.push([x, y, z]);
             }
-            "facet" | "endfacet" if positions.len() % 3 != 0 => {
-                return Err(malformed(line, "a facet does not have three vertices; split it into triangles"));
+            "facet" | "endfacet" => {
+                if ![0, 3].contains(&(positions.len() - facet_begin)) {
+                    return Err(malformed(line, "a facet does not have three vertices; split it into triangles"));
+                }
+                facet_begin = positions.len();
             }
-            "" | "solid" | "facet" | "outer" | "endloop" | "endfacet" | "endsolid" => {}
+            "" | "solid" | "outer" | "endloop" | "endsolid" => {}
             _ => {
                 return Err(malformed(line, "no line of a text STL; export the mesh again as binary STL"));
             }

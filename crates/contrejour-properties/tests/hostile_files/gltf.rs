@@ -46,9 +46,13 @@ fn lengths_that_lie() {
     let true_json = json.len() as u32;
     let true_file = 28 + true_json + 36;
     assert!(loads("true lengths", Gltf, &glb(&json, [true_file, true_json, 36])));
-    for lengths in [[u32::MAX, true_json, 36], [0, true_json, 36], [true_file + 1, true_json, 36]] {
+    for lengths in [[u32::MAX, true_json, 36], [true_file + 1, true_json, 36]] {
         let error = refusal("a file's length", Gltf, &glb(&json, lengths));
         assert!(matches!(error, LoadError::BeyondData { .. }), "{lengths:?}: {error}");
+    }
+    for length in [0, 11] {
+        let error = refusal("a file's length", Gltf, &glb(&json, [length, true_json, 36]));
+        assert!(error.to_string().contains(&format!("{length} bytes, less than its header")), "{error}");
     }
     for lengths in [[true_file, u32::MAX, 36], [true_file, true_json, u32::MAX], [true_file, true_json - 1, 36]] {
         let error = refusal("a chunk's length", Gltf, &glb(&json, lengths));

@@ -100,13 +100,13 @@ fn check_glb_length(bytes: &[u8], path: &Path) -> Result<(), LoadError> {
     let length = bytes.get(8..).and_then(|rest| rest.first_chunk());
     let length = length.map_or(0, |length| u64::from(u32::from_le_bytes(*length)));
     let available = bytes.len() as u64;
-    if length < HEADER_BYTES || length > available {
-        return Err(LoadError::BeyondData {
-            path: path.into(),
-            place: "GLB container".into(),
-            needed: length.max(HEADER_BYTES),
-            available,
-        });
+    if (HEADER_BYTES..=available).contains(&length) {
+        return Ok(());
     }
-    Ok(())
+    let (path, place) = (path.into(), "GLB container".into());
+    if length < HEADER_BYTES && available >= HEADER_BYTES {
+        let problem = format!("its length is given as {length} bytes, less than its header has; export it again");
+        return Err(LoadError::Malformed { path, place, problem });
+    }
+    Err(LoadError::BeyondData { path, place, needed: length.max(HEADER_BYTES), available })
 }
