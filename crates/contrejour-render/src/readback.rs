@@ -41,14 +41,14 @@ pub fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8
 /// [`ReadError`] when the device fails.
 pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_texel: u32) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    read_rows(gpu, texture, bytes_per_texel, |row| bytes.extend_from_slice(row))?;
+    read_rows(gpu, texture, 0, bytes_per_texel, |row| bytes.extend_from_slice(row))?;
     Ok(bytes)
 }
 
 /// What is copied at once where a texture may be copied in parts. Unit: bytes.
 const PART_MAX: u32 = 1 << 26;
 
-/// Hands out the rows of [`read_texture`] one by one, so that no whole copy is held but of depth.
+/// Hands out the rows of a level of a texture one by one, as [`read_texture`] has them, so that no whole copy is held but of depth.
 ///
 /// # Errors
 ///
@@ -56,10 +56,11 @@ const PART_MAX: u32 = 1 << 26;
 pub fn read_rows(
     gpu: &Gpu,
     texture: &wgpu::Texture,
+    mip_level: u32,
     bytes_per_texel: u32,
     mut take: impl FnMut(&[u8]),
 ) -> Result<(), ReadError> {
-    let (width, height) = (texture.width(), texture.height());
+    let [width, height] = [texture.width(), texture.height()].map(|side| (side >> mip_level).max(1));
     let row = width * bytes_per_texel;
     let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     // WebGPU copies depth as a whole.
@@ -70,7 +71,11 @@ pub fn read_rows(
         let staging = staging_buffer(gpu, u64::from(padded_row) * u64::from(rows));
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_texture_to_buffer(
-            wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: begin, z: 0 }, ..texture.as_image_copy() },
+            wgpu::TexelCopyTextureInfo {
+                mip_level,
+                origin: wgpu::Origin3d { x: 0, y: begin, z: 0 },
+                ..texture.as_image_copy()
+            },
             wgpu::TexelCopyBufferInfo {
                 buffer: &staging,
                 layout: wgpu::TexelCopyBufferLayout {

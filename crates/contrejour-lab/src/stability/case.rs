@@ -29,7 +29,7 @@ pub struct Case {
     /// The largest error of visibility that is no fault: more where a reason says so.
     pub visibility_error_max: f64,
     /// Whether the library must refuse the case. Everywhere else it must not.
-    pub is_refused: bool,
+    pub refusal_is_due: bool,
 }
 
 /// A mesh in its place.
@@ -61,7 +61,7 @@ impl Case {
             seen_from: None,
             degrades: String::new(),
             visibility_error_max: VISIBILITY_ERROR_MAX,
-            is_refused: false,
+            refusal_is_due: false,
         }
     }
 

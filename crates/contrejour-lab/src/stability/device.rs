@@ -173,7 +173,10 @@ impl<'a> DeviceFrame<'a> {
         let mut count = 0;
         for texture in textures.into_iter().flatten() {
             let format = texture.format();
-            read_rows(self.gpu, texture, bytes_per_texel(format), |row| count += non_finite(&floats(format, row)))?;
+            for level in 0..texture.mip_level_count() {
+                let take = |row: &[u8]| count += non_finite(&floats(format, row));
+                read_rows(self.gpu, texture, level, bytes_per_texel(format), take)?;
+            }
         }
         Ok(count)
     }

@@ -34,7 +34,7 @@ pub(super) fn measure(gpu: &Gpu, family: &Family, case: &Case) -> Result<Row, Ca
         at: case.at,
         degrades: case.degrades.clone(),
         visibility_error_max: case.visibility_error_max,
-        refusal_is_due: case.is_refused,
+        refusal_is_due: case.refusal_is_due,
         ..Row::default()
     };
     match tried(gpu, case, &mut row) {

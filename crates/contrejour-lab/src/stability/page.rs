@@ -67,7 +67,7 @@ fn findings(found: &Stability) -> Markup {
         p.summary {
             (rows) " cases of " (families) " families, " (grouped(faces_tested)) " signs of faces: "
             (sums.sign_errors) " sign errors, " (sums.open_cycles) " open cycles, " (sums.gaps) " gaps, "
-            (sums.non_finite) " numbers that are not finite, " (sums.surprises) " surprises. A bare test in 32-bit floats has "
+            (sums.non_finite) " numbers that are not finite, " (sums.surprises) " errors or refusals without a reason. A bare test in 32-bit floats has "
             (grouped(sign_errors_f32)) " signs wrong in the same cases."
         }
         @if !faults.is_empty() {

@@ -44,7 +44,7 @@ fn case(name: String, cone: f64) -> Case {
     camera.fov_y = 2.0 * (0.5 * shown / camera.eye.length()).atan();
     case.seen_from = Some(camera);
     explain(&mut case);
-    case.is_refused = cone < f64::from(f32::MIN_POSITIVE) || cone >= PI;
+    case.refusal_is_due = cone < f64::from(f32::MIN_POSITIVE) || cone >= PI;
     case
 }
 

@@ -22,7 +22,7 @@ fn cases(effort: &Effort) -> Vec<Case> {
         let intensity_f32 = intensity as f32;
         lamp_and_sky().into_iter().zip([[1.0, 1.0, 1.0], [1.0, 0.0, 0.5]]).map(move |((light_name, light), share)| {
             let mut case = plate_over_floor(format!("{name}, {light_name}"), intensity, HEIGHT, light);
-            case.is_refused = intensity > f64::from(f32::MAX);
+            case.refusal_is_due = intensity > f64::from(f32::MAX);
             case.light.color = share.map(|share| if share > 0.0 { share * intensity_f32 } else { 0.0 });
             case
         })

@@ -28,7 +28,7 @@ fn cases(effort: &Effort) -> Vec<Case> {
         lamp_and_sky().map(|(light_name, light)| {
             let mut case = plate_over_floor(format!("{size}, {light_name}"), f64::from(size), HEIGHT, light);
             case.settings.map_size = size;
-            case.is_refused = size == 0 || size > effort.largest_map;
+            case.refusal_is_due = size == 0 || size > effort.largest_map;
             if (1..SMALL).contains(&size) {
                 case.explain_error(
                     0.4,

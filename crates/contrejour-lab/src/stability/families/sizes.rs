@@ -31,7 +31,10 @@ fn scale(effort: &Effort) -> Vec<Case> {
         let [spot, parallel] = ring_cases(&name, scale, scale, DVec3::ZERO);
         // Depths and extents below the smallest normal number, and a far plane whose inverse is.
         let is_too_small = scale < 1e-38;
-        [Case { is_refused: is_too_small || scale > 1e37, ..spot }, Case { is_refused: is_too_small, ..parallel }]
+        [
+            Case { refusal_is_due: is_too_small || scale > 1e37, ..spot },
+            Case { refusal_is_due: is_too_small, ..parallel },
+        ]
     });
     cases.collect()
 }

@@ -27,7 +27,7 @@ fn cases(effort: &Effort) -> Vec<Case> {
         [("spot", lamp(radius)), ("parallel", sky(angle))].map(|(light_name, light)| {
             let mut case = plate_over_floor(format!("{name}, {light_name}"), width, HEIGHT, light);
             // An angle of a right one, but for rounding.
-            case.is_refused = light_name == "parallel" && width > 1e16;
+            case.refusal_is_due = light_name == "parallel" && width > 1e16;
             if width > MAP_SIDE {
                 case.explain("the width asked for is more than the map's side, and held to it");
             }
