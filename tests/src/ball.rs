@@ -56,13 +56,6 @@ impl Ball {
         Self { value: self.value.min(other.value), error: self.error.max(other.error) }
     }
 
-    /// The length of a vector.
-    pub fn length(x: Self, y: Self) -> Self {
-        let value = x.value.hypot(y.value);
-        // Squares below the smallest normal number vanish.
-        Self { value, error: x.error + y.error + 4.0 * UNIT * value + 2.0 * FLUSH.sqrt() }
-    }
-
     fn rounded(value: f64, error: f64, size: f64) -> Self {
         Self { value, error: error + UNIT * (size + error) + FLUSH }
     }

@@ -7,6 +7,7 @@ use contrejour_plan::BufferKind;
 
 use crate::frame::Frame;
 use crate::gpu::Gpu;
+use crate::harness::Outcome;
 use crate::stage_run::StageRun;
 
 /// Stages on a device, in the order in which a frame runs them.
@@ -57,6 +58,24 @@ impl Fault {
             }
         }
     }
+}
+
+/// Checks that a check of single stages fails with each of these faults.
+///
+/// # Errors
+///
+/// The first fault with which it passes, or that leaves the whole stage out.
+///
+/// # Panics
+///
+/// As [`Fault::build`].
+pub fn check_each_is_found(gpu: &Gpu, faults: &[Fault], check: impl Fn(&Gpu, &StageRun) -> Outcome) -> Outcome {
+    for fault in faults {
+        if check(gpu, &fault.build(gpu).ok_or("the stage is there")?).is_ok() {
+            return Err(format!("not found: {fault:?}"));
+        }
+    }
+    Ok(())
 }
 
 fn place(stage: &str) -> usize {
