@@ -109,9 +109,7 @@ impl Folder {
 impl Run {
     /// Standard output of a run that ended well.
     pub fn stdout(&self) -> Result<String, String> {
-        if self.output.status.code() != Some(0) {
-            return Err(self.wrong("it should end with 0"));
-        }
+        self.ends_with(0)?;
         String::from_utf8(self.output.stdout.clone()).map_err(|_| self.wrong("what it prints should be text"))
     }
 
@@ -130,9 +128,7 @@ impl Run {
 
     /// The one line on standard error of a run that ended with 2 and printed nothing else.
     pub fn refusal(&self) -> Result<String, String> {
-        if self.output.status.code() != Some(2) {
-            return Err(self.wrong("it should end with 2"));
-        }
+        self.ends_with(2)?;
         if !self.output.stdout.is_empty() {
             return Err(self.wrong("it should print nothing on standard output"));
         }
