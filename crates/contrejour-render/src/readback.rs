@@ -48,7 +48,8 @@ pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_texel: u32) ->
 /// What is copied at once where a texture may be copied in parts. Unit: bytes.
 const PART_MAX: u32 = 1 << 26;
 
-/// Hands out the rows of a level of a texture one by one, as [`read_texture`] has them, so that no whole copy is held but of depth.
+/// Hands out the rows of a level of a texture one by one, as [`read_texture`] has them, so that no whole copy is held but
+/// of depth.
 ///
 /// # Errors
 ///

@@ -58,9 +58,13 @@ pub fn save_file(bytes: &[u8], path: &Path) -> Result<(), SaveError> {
 ///
 /// [`SaveError`] where no folder can be made or no file in it.
 pub fn check_folder(folder: &Path) -> Result<(), SaveError> {
-    fs::create_dir_all(folder).map_err(|source| SaveError::Folder { path: folder.into(), source })?;
+    make_folder(folder)?;
     let made = tempfile::tempfile_in(folder);
     made.map(drop).map_err(|source| SaveError::Write { path: folder.into(), source })
+}
+
+fn make_folder(folder: &Path) -> Result<(), SaveError> {
+    fs::create_dir_all(folder).map_err(|source| SaveError::Folder { path: folder.into(), source })
 }
 
 /// Writes a file with `write`, whose error leaves the file as it was.
@@ -68,8 +72,7 @@ fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Re
     if path.file_name().is_none() {
         return Err(SaveError::NoFileName { path: path.into() });
     }
-    let folder = folder_of(path);
-    fs::create_dir_all(folder).map_err(|source| SaveError::Folder { path: folder.into(), source })?;
+    make_folder(folder_of(path))?;
     let written = if is_stream(path) {
         // Appends, since a shell may have put its own output into the file behind /dev/stdout.
         OpenOptions::new().append(true).open(path).and_then(|mut stream| write(&mut stream))

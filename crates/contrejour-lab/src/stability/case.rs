@@ -20,7 +20,8 @@ pub struct Case {
     pub light: Light,
     /// How its shadow is made.
     pub settings: ShadowSettings,
-    /// How gaps are looked for; none where the definition leaves some, which `degrades` then explains.
+    /// How gaps are looked for around vertices; none where the definition leaves some, which `degrades` then explains, and
+    /// where they would be those of a smaller case.
     pub gap_search: Option<GapSearch>,
     /// From where its visibility is looked at; none where that is not compared with the truth.
     pub seen_from: Option<Camera>,

@@ -40,8 +40,8 @@ pub struct Row {
     /// Outline edges in view that the device or its twin gave no quad, and, where the family looks for them, points beside
     /// outline vertices that neither a blocker nor a smoothie covers.
     pub gaps: Option<u64>,
-    /// Numbers that are infinite or none: in quads, corners, planes, light records and all texels of all maps that the frame leaves,
-    /// in the twin's quads and corners, and in the visibility and the shaded picture of what is looked at.
+    /// Numbers that are infinite or none: in quads, corners, planes, light records and all texels of all maps that the frame
+    /// leaves, in the twin's quads and corners, and in the visibility and the shaded picture of what is looked at.
     pub non_finite: Option<u64>,
     /// The largest difference between a smoothie's width and its definition, as a share of the defined width.
     pub width_error: Option<f64>,
