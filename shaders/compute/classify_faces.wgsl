@@ -1,7 +1,7 @@
 // Decides by their stored planes which faces are lit, as far as a proven bound allows, and lists the others for
 // recheck_faces.
 // One invocation = one word of lit bits, 32 faces.
-// Reads face_items, casters, caster_lights, planes; writes lit, recheck_words, counters.recheck_words.
+// Reads face_items, counters.face_items, casters, caster_lights, planes; writes lit, recheck_words, counters.recheck_words.
 
 @group(0) @binding(0) var<uniform> view: LightView;
 @group(0) @binding(1) var<storage, read> face_items: array<WorkItem>;
@@ -27,7 +27,7 @@ fn classify_faces(
     // Find the faces of the word.
     let index = folded_invocation(group, groups, lane);
     let item_id = index / LIT_WORDS_PER_BLOCK;
-    if item_id >= view.face_item_count {
+    if item_id >= atomicLoad(&counters.face_items) {
         return;
     }
     let item = face_items[item_id];

@@ -25,7 +25,7 @@ fn detect_silhouette(
 ) {
     // Count the faces on both sides.
     let item_id = folded_group(group, groups);
-    let in_range = item_id < view.edge_item_count;
+    let in_range = item_id < atomicLoad(&counters.edge_items);
     let item = edge_items[select(0u, item_id, in_range)];
     let caster = casters[item.caster];
     let edge_id = item.block * BLOCK_SIZE + lane;

@@ -8,6 +8,6 @@
 
 @compute @workgroup_size(1)
 fn write_recheck_args() {
-    let words = min(counters.recheck_words, view.face_item_count * LIT_WORDS_PER_BLOCK);
+    let words = min(counters.recheck_words, view.face_block_count * LIT_WORDS_PER_BLOCK);
     recheck_args[0] = groups_for(words * FACES_PER_WORD);
 }

@@ -12,6 +12,10 @@ struct Counters {
     corners: u32,
     point_edges: u32,
     recheck_words: u32,
+    face_items: u32,
+    edge_items: u32,
+    casters: u32,
+    imageless_casters: u32,
     unused_0: u32,
 }
 

@@ -8,5 +8,9 @@ struct AtomicCounters {
     corners: atomic<u32>,
     point_edges: atomic<u32>,
     recheck_words: atomic<u32>,
+    face_items: atomic<u32>,
+    edge_items: atomic<u32>,
+    casters: atomic<u32>,
+    imageless_casters: atomic<u32>,
     unused_0: atomic<u32>,
 }

@@ -1,4 +1,4 @@
-// What is written when a light or a caster moves. Meanings and units: the structs of the same names in the layout crate.
+// A light view, and what its stages make of it for each caster. Meanings and units: the structs of the same names in the layout crate.
 
 struct CasterLight {
     light_object: vec4u,
@@ -12,8 +12,8 @@ struct CasterLight {
 struct LightView {
     perspective: u32,
     map_size: u32,
-    face_item_count: u32,
-    edge_item_count: u32,
+    face_block_count: u32,
+    edge_block_count: u32,
     undecided_capacity: u32,
     silhouette_capacity: u32,
     quad_capacity: u32,
@@ -31,7 +31,9 @@ struct LightView {
     texel_world: f32,
     depth_unit: f32,
     warp_exponent: f32,
-    unused_0: u32,
-    unused_1: u32,
-    unused_2: u32,
+    caster_count: u32,
+    culls_casters: u32,
+    guard_ndc: f32,
+    light_world: array<vec4u, 2>,
+    light_clip_from_world: array<vec4u, 8>,
 }

@@ -2,8 +2,7 @@
 
 use bytemuck::cast_slice;
 use contrejour_gpu::stages::{self, ComputeStage, Dispatch};
-use contrejour_layout::{BLOCK_SIZE, LIT_WORDS_PER_BLOCK};
-use contrejour_plan::BufferKind;
+use contrejour_layout::{BLOCK_SIZE, LightView};
 
 use crate::frame::Frame;
 use crate::gpu::Gpu;
@@ -127,11 +126,10 @@ impl<'a> Chain<'a> {
 
 fn groups(dispatch: Dispatch, frame: &Frame) -> [u32; 3] {
     match dispatch {
-        Dispatch::Items(BufferKind::EdgeItems) => [frame.edge_items.len() as u32, 1, 1],
-        Dispatch::Items(_) => [frame.face_items.len() as u32, 1, 1],
-        Dispatch::ItemWords(_) => {
-            let words = frame.face_items.len() as u32 * LIT_WORDS_PER_BLOCK;
-            [words.div_ceil(BLOCK_SIZE), 1, 1]
+        Dispatch::Casters => [frame.view.caster_count.div_ceil(BLOCK_SIZE), 1, 1],
+        Dispatch::Blocks => {
+            let LightView { face_block_count, edge_block_count, .. } = frame.view;
+            [face_block_count.div_ceil(BLOCK_SIZE) + edge_block_count.div_ceil(BLOCK_SIZE), 1, 1]
         }
         Dispatch::Once => [1, 1, 1],
         Dispatch::Indirect(kind, index) => {

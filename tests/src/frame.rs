@@ -2,11 +2,11 @@
 
 use bytemuck::{bytes_of, bytes_of_mut, cast_slice, cast_slice_mut};
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
+    BLOCK_SIZE, Caster, CasterLight, CasterPlace, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
     LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SilhouetteEdge, WorkItem,
 };
 use contrejour_mesh::{FacePlanes, TopologyAwareMesh};
-use contrejour_plan::{Light, NearOne, ShadowSettings, ViewCounts, caster_light, views};
+use contrejour_plan::{Light, NearOne, ShadowSettings, ViewCounts, caster_place, views};
 
 use crate::meshes::TestPart;
 use crate::random::Random;
@@ -19,8 +19,12 @@ const GAP: [u32; 7] = [0xdead_beef; 7];
 #[allow(missing_docs, reason = "the fields are the bindings, and the stages' files say what they hold")]
 pub struct Frame {
     pub view: LightView,
+    pub caster_places: Vec<CasterPlace>,
+    pub face_blocks: Vec<WorkItem>,
+    pub edge_blocks: Vec<WorkItem>,
     pub face_items: Vec<WorkItem>,
     pub edge_items: Vec<WorkItem>,
+    pub item_args: Vec<DispatchArgs>,
     pub casters: Vec<Caster>,
     pub caster_lights: Vec<CasterLight>,
     pub faces: Vec<Face>,
@@ -58,31 +62,35 @@ impl Frame {
             let caster = frame.add_part(part, &planes, index, lit_words, outline_words);
             lit_words += caster.face_count.div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
             outline_words += caster.edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK;
-            let light = caster_light(&view, &part.world_from_object, &near_one(&part.topology));
-            if light.casts == 1 {
-                frame.face_items.extend(items(index, caster.face_count).map(|item| {
-                    let by_positions = is_by_positions(index) || !planes.block_fits(item.block);
-                    WorkItem { by_positions: by_positions.into(), ..item }
-                }));
-                frame.edge_items.extend(items(index, caster.edge_count));
-            }
-            frame.caster_lights.push(light);
+            let TopologyAwareMesh { bounds_min, bounds_max, .. } = *part.topology;
+            let bounds = (!is_by_positions(index)).then_some([bounds_min, bounds_max]);
+            frame.caster_places.push(caster_place(&part.world_from_object, &near_one(&part.topology), bounds));
+            frame.face_blocks.extend(blocks(index, caster.face_count).map(|item| {
+                let by_positions = is_by_positions(index) || !planes.block_fits(item.block);
+                WorkItem { by_positions: by_positions.into(), ..item }
+            }));
+            frame.edge_blocks.extend(blocks(index, caster.edge_count));
             frame.casters.push(caster);
         }
-        shuffle(&mut frame.face_items);
-        shuffle(&mut frame.edge_items);
+        shuffle(&mut frame.face_blocks);
+        shuffle(&mut frame.edge_blocks);
+        frame.caster_lights = vec![CasterLight::default(); frame.casters.len()];
+        frame.face_items = vec![WorkItem::default(); frame.face_blocks.len()];
+        frame.edge_items = vec![WorkItem::default(); frame.edge_blocks.len()];
 
         let face_count: u32 = frame.casters.iter().map(|caster| caster.face_count).sum();
         let edge_count: u32 = frame.casters.iter().map(|caster| caster.edge_count).sum();
         let counts = ViewCounts {
-            face_items: frame.face_items.len() as u32,
-            edge_items: frame.edge_items.len() as u32,
+            casters: frame.casters.len() as u32,
+            face_blocks: frame.face_blocks.len() as u32,
+            edge_blocks: frame.edge_blocks.len() as u32,
             undecided: face_count,
             silhouettes: edge_count,
             quads: edge_count,
             corners: 2 * edge_count,
         };
-        frame.view = view.light_view(settings, &counts);
+        // Casters out of view have silhouettes too.
+        frame.view = LightView { culls_casters: 0, ..view.light_view(settings, &counts) };
         frame.lit = vec![0; lit_words as usize];
         frame.recheck_words = vec![RecheckWord::default(); lit_words as usize];
         frame.outline_sides = vec![0; outline_words as usize];
@@ -94,8 +102,12 @@ impl Frame {
     pub fn empty() -> Self {
         Self {
             view: LightView::default(),
+            caster_places: Vec::new(),
+            face_blocks: Vec::new(),
+            edge_blocks: Vec::new(),
             face_items: Vec::new(),
             edge_items: Vec::new(),
+            item_args: vec![DispatchArgs::default(); 2],
             casters: Vec::new(),
             caster_lights: Vec::new(),
             faces: Vec::new(),
@@ -115,7 +127,7 @@ impl Frame {
             extrude_args: vec![DispatchArgs::default(); 2],
             quads: Vec::new(),
             corners: Vec::new(),
-            draw_args: vec![DrawArgs::default(); 2],
+            draw_args: vec![DrawArgs::default(); 3],
         }
     }
 
@@ -182,6 +194,11 @@ impl Frame {
         caster
     }
 
+    /// The listed blocks of faces.
+    pub fn listed_faces(&self) -> &[WorkItem] {
+        &self.face_items[..self.counters.face_items as usize]
+    }
+
     /// The bytes of a binding.
     ///
     /// # Panics
@@ -190,8 +207,12 @@ impl Frame {
     pub fn bytes(&self, binding: &str) -> &[u8] {
         match binding {
             "view" => bytes_of(&self.view),
+            "caster_places" => cast_slice(&self.caster_places),
+            "face_blocks" => cast_slice(&self.face_blocks),
+            "edge_blocks" => cast_slice(&self.edge_blocks),
             "face_items" => cast_slice(&self.face_items),
             "edge_items" => cast_slice(&self.edge_items),
+            "item_args" => cast_slice(&self.item_args),
             "casters" => cast_slice(&self.casters),
             "caster_lights" => cast_slice(&self.caster_lights),
             "faces" => cast_slice(&self.faces),
@@ -223,6 +244,10 @@ impl Frame {
     /// When stages write no buffer of the name, or one of another size.
     pub fn set_bytes(&mut self, binding: &str, bytes: &[u8]) {
         let place = match binding {
+            "caster_lights" => cast_slice_mut(&mut self.caster_lights),
+            "face_items" => cast_slice_mut(&mut self.face_items),
+            "edge_items" => cast_slice_mut(&mut self.edge_items),
+            "item_args" => cast_slice_mut(&mut self.item_args),
             "lit" => cast_slice_mut(&mut self.lit),
             "recheck_words" => cast_slice_mut(&mut self.recheck_words),
             "recheck_args" => cast_slice_mut(&mut self.recheck_args),
@@ -245,7 +270,7 @@ fn near_one(mesh: &TopologyAwareMesh) -> NearOne {
     NearOne::of_box(mesh.bounds_min, mesh.bounds_max)
 }
 
-fn items(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {
+fn blocks(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {
     (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block, by_positions: 0 })
 }
 
@@ -254,7 +279,7 @@ fn is_by_positions(index: u32) -> bool {
     index % 3 == 2
 }
 
-/// Work items may come in any order.
+/// Blocks may come in any order.
 fn shuffle(items: &mut [WorkItem]) {
     let mut random = Random::new(items.len() as u64);
     for end in (1..items.len()).rev() {

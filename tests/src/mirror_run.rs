@@ -28,6 +28,30 @@ impl Frame {
     /// When no stage has the name.
     pub fn run_mirror(&mut self, stage: &str) {
         match stage {
+            "place_casters" => mirror::PlaceCasters {
+                view: &self.view,
+                caster_places: &self.caster_places,
+                caster_lights: &mut self.caster_lights,
+                counters: &mut self.counters,
+            }
+            .run(),
+            "list_blocks" => mirror::ListBlocks {
+                view: &self.view,
+                caster_lights: &self.caster_lights,
+                face_blocks: &self.face_blocks,
+                edge_blocks: &self.edge_blocks,
+                face_items: &mut self.face_items,
+                edge_items: &mut self.edge_items,
+                counters: &mut self.counters,
+            }
+            .run(),
+            "write_item_args" => mirror::WriteItemArgs {
+                view: &self.view,
+                counters: &self.counters,
+                item_args: &mut self.item_args,
+                draw_args: &mut self.draw_args,
+            }
+            .run(),
             "classify_faces" => mirror::ClassifyFaces {
                 view: &self.view,
                 face_items: &self.face_items,

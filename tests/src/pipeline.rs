@@ -58,6 +58,11 @@ impl<'a> Pipeline<'a> {
         self.casters[caster].1 = world_from_object;
     }
 
+    /// Lets two casters change places.
+    pub fn swap(&mut self, caster: usize, other: usize) {
+        self.casters.swap(caster, other);
+    }
+
     /// Prepares and submits one frame and waits for what it counted; zeros where the plan counts nothing.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! From the caller's casters to caster records and work items.
+//! From the caller's casters to caster records and blocks.
 
 use contrejour_layout::{BLOCK_SIZE, Caster, LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK, WorkItem};
 use contrejour_plan::PagePlan;
@@ -36,7 +36,7 @@ pub enum Positions<'a> {
     },
 }
 
-/// What decides the caster records and the work items: they are written again only when this changes.
+/// What decides the caster records and the blocks: they are written again only when this changes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct CasterSet {
     casters: Vec<CasterKey>,
@@ -47,8 +47,6 @@ pub(crate) struct CasterSet {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CasterKey {
     pub mesh: MeshHandle,
-    /// Whether it gets work items in this frame.
-    pub is_active: bool,
     /// Vertices and words from one position to the next, where positions are the caller's.
     pub live: Option<LivePositions>,
 }
@@ -70,13 +68,13 @@ impl LivePositions {
     }
 }
 
-/// Records and work items of a page, as they are uploaded.
+/// Records and blocks of a page, as they are uploaded.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CasterTable {
     /// One for each caster of the scene; zeros where it has no work on the page.
     pub casters: Vec<Caster>,
-    pub face_items: Vec<WorkItem>,
-    pub edge_items: Vec<WorkItem>,
+    pub face_blocks: Vec<WorkItem>,
+    pub edge_blocks: Vec<WorkItem>,
 }
 
 /// Where the words of a caster begin in the buffers that serve all pages.
@@ -104,7 +102,7 @@ impl CasterSet {
         let words = |key: &CasterKey| {
             let words = next;
             next.live += key.live.map_or(0, LivePositions::words) as u32;
-            if let Some(mesh) = meshes.get(key.mesh).filter(|_| key.is_active) {
+            if let Some(mesh) = meshes.get(key.mesh) {
                 next.lit += (mesh.topology.faces.len() as u32).div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
                 next.outline += mesh.topology.candidate_edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK;
             }
@@ -127,18 +125,18 @@ impl CasterSet {
                 caster.position_stride_words = live.stride_words;
             }
             table.casters[here.caster] = caster;
-            if key.is_active {
-                let items = |first: u32, blocks: u32| {
-                    let first_block = first / BLOCK_SIZE;
-                    let caster = here.caster as u32;
-                    (first_block..first_block + blocks).map(move |block| WorkItem { caster, block, by_positions: 0 })
-                };
-                let face_items = items(piece.first_face, piece.face_blocks()).map(|item| {
-                    let by_positions = key.live.is_some() || !meshes.has_planes(key.mesh, item.block);
-                    WorkItem { by_positions: by_positions.into(), ..item }
-                });
-                table.face_items.extend(face_items);
-                table.edge_items.extend(items(piece.first_edge, piece.edge_blocks()));
+            let blocks = |first: u32, blocks: u32| {
+                let first_block = first / BLOCK_SIZE;
+                let caster = here.caster as u32;
+                (first_block..first_block + blocks).map(move |block| WorkItem { caster, block, by_positions: 0 })
+            };
+            let face_blocks = blocks(piece.first_face, piece.face_blocks()).map(|item| {
+                let by_positions = key.live.is_some() || !meshes.has_planes(key.mesh, item.block);
+                WorkItem { by_positions: by_positions.into(), ..item }
+            });
+            table.face_blocks.extend(face_blocks);
+            if page.counts.edge_blocks > 0 {
+                table.edge_blocks.extend(blocks(piece.first_edge, piece.edge_blocks()));
             }
         }
         table

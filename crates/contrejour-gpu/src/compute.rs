@@ -1,7 +1,7 @@
 //! A compute stage on the device: its pipeline, its bind group, its dispatch.
 
-use contrejour_layout::{BLOCK_SIZE, DispatchArgs, LIT_WORDS_PER_BLOCK, MAX_GROUPS_X};
-use contrejour_plan::{BufferKind, PagePlan, Stage, ViewCounts};
+use contrejour_layout::{BLOCK_SIZE, DispatchArgs, MAX_GROUPS_X};
+use contrejour_plan::{PagePlan, Stage, ViewCounts};
 
 use crate::resources::{Buffers, binding_type};
 use crate::stages::{ComputeStage, Dispatch};
@@ -85,10 +85,11 @@ impl StagePipeline {
             for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
                 pass.set_bind_group(0, bind_group, &[]);
                 match self.description.dispatch {
-                    Dispatch::Items(kind) => dispatch(&mut pass, item_count(kind, &page.counts)),
-                    Dispatch::ItemWords(kind) => {
-                        let items_per_group = BLOCK_SIZE / LIT_WORDS_PER_BLOCK;
-                        dispatch(&mut pass, item_count(kind, &page.counts).div_ceil(items_per_group));
+                    Dispatch::Casters if index > 0 => {}
+                    Dispatch::Casters => dispatch(&mut pass, page.counts.casters.div_ceil(BLOCK_SIZE)),
+                    Dispatch::Blocks => {
+                        let ViewCounts { face_blocks, edge_blocks, .. } = page.counts;
+                        dispatch(&mut pass, face_blocks.div_ceil(BLOCK_SIZE) + edge_blocks.div_ceil(BLOCK_SIZE));
                     }
                     Dispatch::Once => pass.dispatch_workgroups(1, 1, 1),
                     Dispatch::Indirect(kind, entry) => {
@@ -100,10 +101,6 @@ impl StagePipeline {
         }
         timer.end(query, encoder);
     }
-}
-
-fn item_count(kind: BufferKind, counts: &ViewCounts) -> u32 {
-    if kind == BufferKind::EdgeItems { counts.edge_items } else { counts.face_items }
 }
 
 /// Folded into two dimensions.

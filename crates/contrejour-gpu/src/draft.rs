@@ -1,8 +1,9 @@
 //! What a frame will do and upload, worked out before anything is touched.
 
-use contrejour_layout::{CasterLight, LightView, ReceiverView};
+use contrejour_layout::{CASTER_NEVER, CasterPlace, LightView, ReceiverView};
 use contrejour_plan::{
-    Capacity, CasterFacts, DeviceFacts, FramePlan, ObjectBox, PlanInput, SceneFacts, caster_light, views,
+    Capacity, CasterFacts, DeviceFacts, FramePlan, Outputs, PlanInput, SceneFacts, View, ViewCounts, caster_place,
+    views,
 };
 
 use crate::casters::{CasterInput, CasterKey, CasterSet, LivePositions, Positions};
@@ -16,13 +17,14 @@ pub(crate) struct FrameDraft {
     pub plan: FramePlan,
     pub casters: CasterSet,
     pub records: Records,
+    pub singular_casters: u32,
     pub copies: Vec<LiveCopy>,
 }
 
 /// What a frame uploads.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Records {
-    pub caster_lights: Vec<CasterLight>,
+    pub caster_places: Vec<CasterPlace>,
     /// One for each page, which differ in their counts.
     pub light_views: Vec<LightView>,
     pub receiver_view: ReceiverView,
@@ -51,15 +53,18 @@ impl FrameDraft {
         // Look at each caster.
         let mut scene =
             SceneFacts { meshes: pool.facts().to_vec(), pieces: pool.pieces().to_vec(), ..SceneFacts::default() };
-        let mut caster_lights = Vec::with_capacity(input.casters.len());
+        let mut singular_casters = 0;
+        let mut caster_places = Vec::with_capacity(input.casters.len());
         let mut live = Vec::with_capacity(input.casters.len());
         for (caster, index) in input.casters.iter().zip(0..) {
             let Some(mesh) = pool.get(caster.mesh) else {
                 return Err(PrepareError::UnknownMesh { caster: index, mesh: caster.mesh });
             };
             let positions = live_positions(caster, index, pool.facts()[caster.mesh.0].vertices)?;
-            caster_lights.push(caster_light(&view, &caster.world_from_object, &mesh.near_one));
-            scene.casters.push(facts(caster, index, mesh, positions));
+            let place = place(caster, mesh, positions);
+            singular_casters += u32::from(place.casts == CASTER_NEVER && !mesh.topology.faces.is_empty());
+            caster_places.push(place);
+            scene.casters.push(facts(caster, index, positions));
             live.push(positions);
         }
 
@@ -72,34 +77,42 @@ impl FrameDraft {
             outputs: options.outputs,
             capacity,
         })?;
-        let keys = input.casters.iter().zip(&live).enumerate().map(|(index, (caster, live))| CasterKey {
-            mesh: caster.mesh,
-            is_active: plan.casts(index),
-            live: *live,
-        });
+        let keys = input.casters.iter().zip(&live).map(|(caster, live)| CasterKey { mesh: caster.mesh, live: *live });
         let casters = CasterSet::new(keys.collect(), pool.position_words());
         let records = Records {
-            caster_lights,
-            light_views: plan.pages.iter().map(|page| view.light_view(&plan.settings, &page.counts)).collect(),
+            caster_places,
+            light_views: plan.pages.iter().map(|page| light_view(&view, &plan, &page.counts)).collect(),
             receiver_view: view.receiver_view(&plan.settings),
         };
         let copies = live_copies(input.casters, &live, pool.position_words());
-        Ok(Self { plan, casters, records, copies })
+        Ok(Self { plan, casters, records, singular_casters, copies })
     }
 }
 
-fn facts(caster: &CasterInput<'_>, index: usize, mesh: &PooledMesh, live: Option<LivePositions>) -> CasterFacts {
+fn light_view(view: &View, plan: &FramePlan, counts: &ViewCounts) -> LightView {
+    // The list of silhouette edges does not end where the maps do.
+    let culls_casters = (plan.outputs != Outputs::Silhouettes).into();
+    LightView { culls_casters, ..view.light_view(&plan.settings, counts) }
+}
+
+/// Who casts for a view is decided on the device, so the plan need not know where casters stand.
+fn facts(caster: &CasterInput<'_>, index: usize, live: Option<LivePositions>) -> CasterFacts {
     CasterFacts {
         name: format!("caster {index}"),
         mesh: caster.mesh.0,
-        // Where positions are the caller's, the CPU does not know where they are.
-        bounds: live.is_none().then_some(ObjectBox {
-            min: mesh.topology.bounds_min,
-            max: mesh.topology.bounds_max,
-            world_from_object: caster.world_from_object,
-        }),
+        bounds: None,
         own_position_words: live.map_or(0, LivePositions::words),
     }
+}
+
+fn place(caster: &CasterInput<'_>, mesh: &PooledMesh, live: Option<LivePositions>) -> CasterPlace {
+    let topology = &mesh.topology;
+    if topology.faces.is_empty() {
+        return CasterPlace { casts: CASTER_NEVER, ..CasterPlace::default() };
+    }
+    // Where positions are the caller's, the CPU does not know where they are.
+    let bounds = live.is_none().then_some([topology.bounds_min, topology.bounds_max]);
+    caster_place(&caster.world_from_object, &mesh.near_one, bounds)
 }
 
 /// Where a caster brings its own positions: checks the buffer and says how they lie.

@@ -67,8 +67,6 @@ pub struct FrameStats {
     pub readback_waits: u64,
     /// Casters of the last frame whose matrix is singular: they cast nothing.
     pub singular_casters: u32,
-    /// Casters of the last frame whose clip space `f32` can't hold, too large or too small: they have a silhouette and throw no shadow.
-    pub imageless_casters: u32,
     /// Whether the last frame was like the one before, so that its maps stand and no pass was recorded.
     pub is_unchanged: bool,
     /// Counters of the latest frame that has arrived.

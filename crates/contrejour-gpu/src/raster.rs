@@ -1,6 +1,6 @@
 //! A raster pass over a light view's maps on the device.
 
-use contrejour_layout::{BLOCK_SIZE, DrawArgs, LightView};
+use contrejour_layout::{DrawArgs, LightView};
 use contrejour_plan::{BufferKind, EntryPoints, FramePlan, PagePlan, Pass, PipelinePlan, TextureKind};
 
 use crate::passes::{ClearColor, DrawCount, Levels, MapPass};
@@ -175,8 +175,9 @@ impl MapPipeline {
             for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
                 pass.set_bind_group(0, bind_group, &[]);
                 match *count {
-                    DrawCount::FaceItems => pass.draw(0..page.counts.face_items * BLOCK_SIZE * 3, 0..1),
                     DrawCount::FullScreen => pass.draw(0..3, 0..1),
+                    // Without a block nothing wrote the arguments.
+                    DrawCount::Indirect(_) if page.counts.face_blocks + page.counts.edge_blocks == 0 => {}
                     DrawCount::Indirect(entry) => {
                         let offset = u64::from(entry) * size_of::<DrawArgs>() as u64;
                         pass.draw_indirect(buffers.get(BufferKind::DrawArgs, index), offset);

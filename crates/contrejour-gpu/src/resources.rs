@@ -123,9 +123,11 @@ fn usage(kind: BufferKind) -> wgpu::BufferUsages {
     common
         | match kind {
             BufferKind::LightView | BufferKind::ReceiverView => wgpu::BufferUsages::UNIFORM,
-            BufferKind::RecheckArgs | BufferKind::RefineArgs | BufferKind::ExtrudeArgs | BufferKind::DrawArgs => {
-                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT
-            }
+            BufferKind::ItemArgs
+            | BufferKind::RecheckArgs
+            | BufferKind::RefineArgs
+            | BufferKind::ExtrudeArgs
+            | BufferKind::DrawArgs => wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT,
             _ => wgpu::BufferUsages::STORAGE,
         }
 }

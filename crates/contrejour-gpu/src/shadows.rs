@@ -365,8 +365,8 @@ impl Shadows {
         }
         for (table, page) in draft.casters.tables(&self.pool, &draft.plan.pages).iter().zip(0..) {
             write((BufferKind::Casters, page), 0, bytemuck::cast_slice(&table.casters));
-            write((BufferKind::FaceItems, page), 0, bytemuck::cast_slice(&table.face_items));
-            write((BufferKind::EdgeItems, page), 0, bytemuck::cast_slice(&table.edge_items));
+            write((BufferKind::FaceBlocks, page), 0, bytemuck::cast_slice(&table.face_blocks));
+            write((BufferKind::EdgeBlocks, page), 0, bytemuck::cast_slice(&table.edge_blocks));
         }
         bytes
     }
@@ -399,7 +399,7 @@ impl Shadows {
 
     /// Uploads the frame's records and takes the draft over.
     fn upload(&mut self, queue: &wgpu::Queue, draft: FrameDraft, set_up_bytes: u64) {
-        let FrameDraft { plan, casters, records, copies } = draft;
+        let FrameDraft { plan, casters, records, singular_casters, copies } = draft;
         let is_same = self.plan.as_ref() == Some(&plan)
             && set_up_bytes == 0
             && copies.is_empty()
@@ -408,9 +408,7 @@ impl Shadows {
         self.stats.is_unchanged = is_same && self.is_encoded;
         self.stats.upload_bytes = 0;
         self.stats.set_up_bytes = set_up_bytes;
-        self.stats.imageless_casters =
-            plan.casting.iter().filter(|caster| !records.caster_lights[**caster].has_image()).count() as u32;
-        self.stats.singular_casters = plan.singular_casters;
+        self.stats.singular_casters = singular_casters;
         if !is_same {
             let mut write = |(kind, page), bytes: &[u8]| {
                 if let Some(buffer) = self.frame.buffers.find(kind, page).filter(|_| !bytes.is_empty()) {
@@ -418,7 +416,9 @@ impl Shadows {
                     self.stats.upload_bytes += bytes.len() as u64;
                 }
             };
-            write((BufferKind::CasterLights, 0), bytemuck::cast_slice(&records.caster_lights));
+            if self.records.caster_places != records.caster_places || set_up_bytes > 0 {
+                write((BufferKind::CasterPlaces, 0), bytemuck::cast_slice(&records.caster_places));
+            }
             for (light_view, page) in records.light_views.iter().zip(0..) {
                 write((BufferKind::LightView, page), bytemuck::bytes_of(light_view));
             }

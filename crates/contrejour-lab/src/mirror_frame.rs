@@ -70,8 +70,9 @@ impl<'a> MirrorFrame<'a> {
         }
         let [faces, edges] = [frame.faces.len(), frame.edges.len()].map(|count| count as u32);
         let counts = ViewCounts {
-            face_items: frame.face_items.len() as u32,
-            edge_items: frame.edge_items.len() as u32,
+            casters: frame.casters.len() as u32,
+            face_blocks: frame.face_items.len() as u32,
+            edge_blocks: frame.edge_items.len() as u32,
             undecided: faces,
             silhouettes: edges,
             quads: edges.min(FIRST_ROOM),

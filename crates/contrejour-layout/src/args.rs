@@ -19,6 +19,14 @@ shared_struct! {
         point_edges: u32,
         /// Words of lit bits with faces that their planes leave undecided.
         recheck_words: u32,
+        /// Blocks of faces of the casters that cast for the view.
+        face_items: u32,
+        /// Blocks of edges of the casters that cast for the view.
+        edge_items: u32,
+        /// Casters that cast for the view.
+        casters: u32,
+        /// Casters that cast for the view and have no image in it: 32-bit floats can't hold their clip space.
+        imageless_casters: u32,
         /// Zero.
         unused_0: u32,
     }
@@ -35,6 +43,10 @@ impl core::iter::Sum for Counters {
             corners: sum.corners.saturating_add(page.corners),
             point_edges: sum.point_edges.saturating_add(page.point_edges),
             recheck_words: sum.recheck_words.saturating_add(page.recheck_words),
+            face_items: sum.face_items.saturating_add(page.face_items),
+            edge_items: sum.edge_items.saturating_add(page.edge_items),
+            casters: sum.casters.saturating_add(page.casters),
+            imageless_casters: sum.imageless_casters.saturating_add(page.imageless_casters),
             ..sum
         })
     }

@@ -24,12 +24,14 @@
 mod args;
 mod light;
 mod outline;
+mod place;
 mod shared_struct;
 mod topology;
 
 pub use args::*;
 pub use light::*;
 pub use outline::*;
+pub use place::*;
 pub use shared_struct::{SharedField, SharedStruct};
 pub use topology::*;
 
@@ -61,6 +63,7 @@ pub const SHARED_STRUCTS: &[SharedStruct] = &[
     VertexEdge::SHARED,
     Caster::SHARED,
     WorkItem::SHARED,
+    CasterPlace::SHARED,
     CasterLight::SHARED,
     LightView::SHARED,
     RecheckWord::SHARED,

@@ -1,9 +1,9 @@
-//! What is written when a light or a caster moves.
+//! What is written when a light moves, and what a view's stages make of it for each caster.
 
 use crate::shared_struct::shared_struct;
 
 shared_struct! {
-    /// One light as one caster sees it.
+    /// One light view as one caster sees it.
     CasterLight {
         /// Bits of the light in the caster's object space: x, y, z, w. These values are the input of the exact
         /// facing test.
@@ -12,7 +12,7 @@ shared_struct! {
         light_clip_from_object: [f32; 16],
         /// 1 when the caster's matrix mirrors (its determinant is negative), else 0.
         mirrored: u32,
-        /// 1 when the caster casts for this light; 0 leaves it out (its matrix is singular).
+        /// 1 when the caster casts for this view; 0 leaves it out (its matrix is singular, or the view can't see it).
         casts: u32,
         /// Zero.
         unused_0: u32,
@@ -36,10 +36,10 @@ shared_struct! {
         perspective: u32,
         /// Texels along a side of the square maps.
         map_size: u32,
-        /// Work items of faces.
-        face_item_count: u32,
-        /// Work items of edges.
-        edge_item_count: u32,
+        /// Blocks of faces of all casters.
+        face_block_count: u32,
+        /// Blocks of edges of all casters.
+        edge_block_count: u32,
         /// Room in the list of undecided faces.
         undecided_capacity: u32,
         /// Room in the list of silhouette edges.
@@ -74,12 +74,16 @@ shared_struct! {
         depth_unit: f32,
         /// Exponent of the moments' warp; 0 where depth is not warped.
         warp_exponent: f32,
-        /// Zero.
-        unused_0: u32,
-        /// Zero.
-        unused_1: u32,
-        /// Zero.
-        unused_2: u32,
+        /// Casters.
+        caster_count: u32,
+        /// 1 where casters outside the frustum are left out, else 0.
+        culls_casters: u32,
+        /// How far outside the frustum's sides a caster still matters, in NDC: smoothie width and filter texels.
+        guard_ndc: f32,
+        /// The homogeneous light in the world: x, y, z, w as 64-bit floats, two to a row, each its low word first.
+        light_world: [[u32; 4]; 2],
+        /// Light clip space from the world, column by column, as 64-bit floats.
+        light_clip_from_world: [[u32; 4]; 8],
     }
 }
 

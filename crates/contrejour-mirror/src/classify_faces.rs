@@ -10,7 +10,7 @@ use contrejour_layout::{
 
 /// The bindings of `classify_faces`.
 pub struct ClassifyFaces<'a> {
-    /// How many work items there are.
+    /// Not read.
     pub view: &'a LightView,
     /// Blocks of faces.
     pub face_items: &'a [WorkItem],
@@ -24,14 +24,14 @@ pub struct ClassifyFaces<'a> {
     pub lit: &'a mut [u32],
     /// Words with faces to recheck.
     pub recheck_words: &'a mut [RecheckWord],
-    /// Counts the words.
+    /// How many work items there are; counts the words.
     pub counters: &'a mut Counters,
 }
 
 impl ClassifyFaces<'_> {
     /// Does what the dispatch does.
     pub fn run(mut self) {
-        for item in &self.face_items[..self.view.face_item_count as usize] {
+        for item in &self.face_items[..self.counters.face_items as usize] {
             for word in 0..LIT_WORDS_PER_BLOCK {
                 self.classify_word(item, item.block * LIT_WORDS_PER_BLOCK + word);
             }

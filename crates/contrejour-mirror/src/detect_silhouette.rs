@@ -8,7 +8,7 @@ use contrejour_layout::{
 
 /// The stage `detect_silhouette`: lit bits to silhouette edges and outline sides.
 pub struct DetectSilhouette<'a> {
-    /// How many work items there are, and the room in the list of silhouette edges.
+    /// The room in the list of silhouette edges.
     pub view: &'a LightView,
     /// Blocks of edges.
     pub edge_items: &'a [WorkItem],
@@ -24,7 +24,7 @@ pub struct DetectSilhouette<'a> {
     pub silhouettes: &'a mut [SilhouetteEdge],
     /// Outline sides of all casters, two bits an edge.
     pub outline_sides: &'a mut [u32],
-    /// Counts silhouette edges.
+    /// How many work items there are; counts silhouette edges.
     pub counters: &'a mut Counters,
 }
 
@@ -42,7 +42,7 @@ impl DetectSilhouette<'_> {
     ///
     /// When a record names a part of a buffer that does not exist.
     pub fn run(self) {
-        for item in &self.edge_items[..self.view.edge_item_count as usize] {
+        for item in &self.edge_items[..self.counters.edge_items as usize] {
             let caster = &self.casters[item.caster as usize];
             let mut block_sides = [0; OUTLINE_WORDS_PER_BLOCK as usize];
             let first_edge_id = item.block * BLOCK_SIZE;

@@ -1,4 +1,4 @@
-//! All stages of one light view, one after the other.
+//! The stages of one light view on given work items, one after the other.
 
 use contrejour_layout::{
     BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
@@ -13,7 +13,7 @@ use crate::{
 /// What the stages of one light view read: the pooled buffers of all casters.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameInputs<'a> {
-    /// The light view, with the number of work items and the room in all lists.
+    /// The light view, with the room in all lists.
     pub view: &'a LightView,
     /// Blocks of faces.
     pub face_items: &'a [WorkItem],
@@ -58,11 +58,12 @@ pub struct FrameOutputs {
     pub refine_args: [DispatchArgs; 2],
     /// The dispatches of `extrude_edges` and `build_corners`.
     pub extrude_args: [DispatchArgs; 2],
-    /// The draws of quads and corners.
-    pub draw_args: [DrawArgs; 2],
+    /// The draws of quads and corners, behind that of the faces, which is left as it is.
+    pub draw_args: [DrawArgs; 3],
 }
 
-/// Runs all stages of one light view in order.
+/// Runs the stages of one light view in order, from `classify_faces` on: work items and the light as each caster sees it
+/// are given.
 ///
 /// # Panics
 ///
@@ -81,9 +82,16 @@ pub fn run_frame(inputs: &FrameInputs) -> FrameOutputs {
 ///
 /// As [`run_frame`].
 pub fn run_facing(inputs: &FrameInputs) -> Vec<u32> {
-    let mut outputs = FrameOutputs { lit: lit_words(inputs), ..FrameOutputs::default() };
+    let (lit, counters) = (lit_words(inputs), listed(inputs));
+    let mut outputs = FrameOutputs { lit, counters, ..FrameOutputs::default() };
     outputs.find_lit_faces(inputs);
     outputs.lit
+}
+
+/// What `list_blocks` counts.
+fn listed(inputs: &FrameInputs) -> Counters {
+    let (face_items, edge_items) = (inputs.face_items.len() as u32, inputs.edge_items.len() as u32);
+    Counters { face_items, edge_items, ..Counters::default() }
 }
 
 fn lit_words(inputs: &FrameInputs) -> Vec<u32> {
@@ -105,14 +113,15 @@ impl FrameOutputs {
             silhouettes: vec![SilhouetteEdge::default(); inputs.view.silhouette_capacity as usize],
             quads: vec![Quad::default(); inputs.view.quad_capacity as usize],
             corners: vec![Corner::default(); inputs.view.corner_capacity as usize],
+            counters: listed(inputs),
             ..Self::default()
         }
     }
 
     fn find_lit_faces(&mut self, inputs: &FrameInputs) {
         let &FrameInputs { view, casters, caster_lights, faces, positions, .. } = inputs;
-        let words = view.face_item_count * LIT_WORDS_PER_BLOCK;
-        let mut recheck_words = vec![RecheckWord::default(); words as usize];
+        let words = inputs.face_items.len() * LIT_WORDS_PER_BLOCK as usize;
+        let mut recheck_words = vec![RecheckWord::default(); words];
         let mut undecided = vec![FaceRef::default(); view.undecided_capacity as usize];
         ClassifyFaces {
             view,
@@ -206,7 +215,7 @@ mod tests {
         assert_eq!(frame.lit, [0b1110, 0]);
         assert_eq!((frame.silhouettes.len(), frame.quads.len(), frame.corners.len()), (3, 3, 3));
         assert_eq!(frame.extrude_args, [DispatchArgs { x: 1, y: 1, z: 1 }; 2]);
-        assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [18, 36]);
+        assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [0, 18, 36]);
     }
 
     #[test]
@@ -228,6 +237,6 @@ mod tests {
         assert_eq!(frame.counters, Counters::default());
         assert_eq!(frame.recheck_args, [DispatchArgs { x: 0, y: 0, z: 1 }]);
         assert_eq!(frame.refine_args, [DispatchArgs { x: 0, y: 0, z: 1 }; 2]);
-        assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [0, 0]);
+        assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [0; 3]);
     }
 }

@@ -52,8 +52,8 @@ impl TestScene {
         let faces: Vec<_> = self.faces.iter().map(|&[a, b, c]| Face { a, b, c }).collect();
         run_frame(&FrameInputs {
             view: &LightView {
-                face_item_count: face_items.len() as u32,
-                edge_item_count: edge_items.len() as u32,
+                face_block_count: face_items.len() as u32,
+                edge_block_count: edge_items.len() as u32,
                 ..self.view()
             },
             face_items: &face_items,

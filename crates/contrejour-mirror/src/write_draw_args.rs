@@ -8,7 +8,7 @@ pub struct WriteDrawArgs<'a> {
     pub view: &'a LightView,
     /// How many quads and corners were needed.
     pub counters: &'a Counters,
-    /// Of the quads, of the corners.
+    /// Of the quads, of the corners, behind that of the faces.
     pub draw_args: &'a mut [DrawArgs],
 }
 
@@ -17,10 +17,10 @@ impl WriteDrawArgs<'_> {
     ///
     /// # Panics
     ///
-    /// When `draw_args` has less than two records.
+    /// When `draw_args` has less than three records.
     pub fn run(self) {
-        self.draw_args[0] = draw(VERTICES_PER_QUAD * self.counters.quads.min(self.view.quad_capacity));
-        self.draw_args[1] = draw(VERTICES_PER_CORNER * self.counters.corners.min(self.view.corner_capacity));
+        self.draw_args[1] = draw(VERTICES_PER_QUAD * self.counters.quads.min(self.view.quad_capacity));
+        self.draw_args[2] = draw(VERTICES_PER_CORNER * self.counters.corners.min(self.view.corner_capacity));
     }
 }
 
@@ -36,8 +36,8 @@ mod tests {
     fn draws_are_clamped_to_capacity() {
         let view = LightView { quad_capacity: 10, corner_capacity: 3, ..Default::default() };
         let counters = Counters { quads: 7, corners: 4, ..Default::default() };
-        let mut draw_args = [DrawArgs::default(); 2];
+        let mut draw_args = [DrawArgs::default(); 3];
         WriteDrawArgs { view: &view, counters: &counters, draw_args: &mut draw_args }.run();
-        assert_eq!(draw_args, [draw(42), draw(36)]);
+        assert_eq!(draw_args, [DrawArgs::default(), draw(42), draw(36)]);
     }
 }

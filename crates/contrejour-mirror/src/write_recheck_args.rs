@@ -6,7 +6,7 @@ use crate::group_args::groups_for;
 
 /// The bindings of `write_recheck_args`.
 pub struct WriteRecheckArgs<'a> {
-    /// How many work items there are, each with so many words.
+    /// How many blocks of faces there are.
     pub view: &'a LightView,
     /// How many words have faces to recheck.
     pub counters: &'a Counters,
@@ -17,7 +17,7 @@ pub struct WriteRecheckArgs<'a> {
 impl WriteRecheckArgs<'_> {
     /// Does what the dispatch does.
     pub fn run(self) {
-        let words = self.counters.recheck_words.min(self.view.face_item_count * LIT_WORDS_PER_BLOCK);
+        let words = self.counters.recheck_words.min(self.view.face_block_count * LIT_WORDS_PER_BLOCK);
         self.recheck_args[0] = groups_for(words * FACES_PER_WORD);
     }
 }
@@ -27,7 +27,7 @@ mod tests {
     use super::*;
 
     fn args(words: u32) -> DispatchArgs {
-        let view = LightView { face_item_count: 1 << 20, ..Default::default() };
+        let view = LightView { face_block_count: 1 << 20, ..Default::default() };
         let counters = Counters { recheck_words: words, ..Default::default() };
         let mut recheck_args = [DispatchArgs::default()];
         WriteRecheckArgs { view: &view, counters: &counters, recheck_args: &mut recheck_args }.run();

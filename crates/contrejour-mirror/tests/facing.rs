@@ -40,7 +40,7 @@ struct OneFace {
 }
 
 fn view() -> LightView {
-    LightView { face_item_count: 1, undecided_capacity: 1, ..Default::default() }
+    LightView { face_block_count: 1, undecided_capacity: 1, ..Default::default() }
 }
 
 impl OneFace {
@@ -63,7 +63,7 @@ impl OneFace {
             lit: [u32::MAX; 2],
             recheck_words: Default::default(),
             undecided: Default::default(),
-            counters: Counters::default(),
+            counters: Counters { face_items: 1, ..Counters::default() },
         }
     }
 

@@ -36,8 +36,9 @@ impl Caster {
         let edge_item = |block| WorkItem { caster: 0, block, by_positions: 0 };
         let edge_items: Vec<_> = blocks(record.edge_count).map(edge_item).collect();
         let counts = ViewCounts {
-            face_items: face_items.len() as u32,
-            edge_items: edge_items.len() as u32,
+            casters: 1,
+            face_blocks: face_items.len() as u32,
+            edge_blocks: edge_items.len() as u32,
             undecided: record.face_count,
             silhouettes: record.edge_count,
             quads: record.edge_count,

@@ -27,6 +27,9 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("CORNER_WEDGE", layout::CORNER_WEDGE),
     ("CORNER_CAP", layout::CORNER_CAP),
     ("MAX_SEARCHED_VALENCE", layout::MAX_SEARCHED_VALENCE),
+    ("CASTER_NEVER", layout::CASTER_NEVER),
+    ("CASTER_ALWAYS", layout::CASTER_ALWAYS),
+    ("CASTER_IN_VIEW", layout::CASTER_IN_VIEW),
 ];
 
 /// Compares the structs of a module with those of the same names in Rust; returns the names that it has.

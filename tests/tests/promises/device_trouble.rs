@@ -111,22 +111,21 @@ fn a_device_lost_under_way() -> Outcome {
 fn a_frame_that_failed_is_made_again() -> Outcome {
     let mut mesh = body();
     mesh.parts.push(mesh.parts[0].clone());
-    let place = mesh.parts[1].world_from_object;
     let light = lights(&mesh)[0];
     let gpu = gpu_alone()?;
     let mut pipeline = Pipeline::new(&gpu, &mesh, &small(Technique::default()))?;
     let before = left_by(&gpu, &mut pipeline, &light)?;
     pipeline.shadows.buffer(BufferKind::Casters).ok_or("there are casters")?.destroy();
 
-    // One caster leaves, so the records of all are written again.
-    pipeline.place(1, DMat4::ZERO);
+    // Two casters change places, so the records of all are written again.
+    pipeline.swap(0, 1);
     let refused = pipeline.prepare(&light);
     let told =
         matches!(&refused, Err(PrepareError::Device(DeviceError::Refused { text })) if text.contains("destroyed"));
     if !told || pipeline.shadows.plan().is_some() {
         return Err(format!("the frame is kept, or the reason is not told: {refused:?}"));
     }
-    pipeline.place(1, place);
+    pipeline.swap(0, 1);
     let again = left_by(&gpu, &mut pipeline, &light)?;
     if again == before { Ok(()) } else { Err("what was made again draws another picture".into()) }
 }

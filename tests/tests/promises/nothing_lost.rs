@@ -86,7 +86,7 @@ fn a_frame_without_growth_is_found(gpu: &Gpu) -> Outcome {
 /// The frame as the stages' twins leave it.
 fn twin(mesh: &TestMesh, light: &Light) -> Frame {
     let mut twin = Frame::new(&mesh.parts, light, &ShadowSettings::default());
-    twin.run_mirrors("classify_faces", "write_draw_args");
+    twin.run_mirrors("place_casters", "write_draw_args");
     twin
 }
 

@@ -46,7 +46,7 @@ fn are_exact_and_whole(gpu: &Gpu) -> Outcome {
 
     let plan = pipeline.shadows.plan().ok_or("a prepared frame has a plan")?;
     eprintln!("{plan}");
-    let most_items = plan.pages.iter().map(|page| page.counts.edge_items).max();
+    let most_items = plan.pages.iter().map(|page| page.counts.edge_blocks).max();
     if plan.pages.len() < 2 || most_items <= Some(MAX_GROUPS_X) {
         return Err(format!("{} pages, at most {most_items:?} work items on one", plan.pages.len()));
     }
@@ -57,7 +57,7 @@ fn are_exact_and_whole(gpu: &Gpu) -> Outcome {
     say(&format!("{} silhouette edges are exact and closed", silhouettes.len()));
 
     let mut twin = Frame::new(&mesh.parts, &light, &ShadowSettings::default());
-    twin.run_mirrors("classify_faces", "write_extrude_args");
+    twin.run_mirrors("place_casters", "write_extrude_args");
     compare_records("silhouette edge", &twin.silhouettes[..silhouettes.len()], &silhouettes, 0.0)?;
     twin.run_mirrors("write_extrude_args", "write_draw_args");
     compare_keys("quads", &twin.quads[..twin.counters.quads as usize], &pipeline.quads(), |_| false)?;

@@ -26,7 +26,7 @@ fn decides_right_or_lists(gpu: &Gpu) -> Outcome {
     for_each_case("classify_faces", |case| {
         let mut before = case.frame.clone();
         before.lit.fill(u32::MAX);
-        let groups = before.view.face_item_count.div_ceil(BLOCK_SIZE / LIT_WORDS_PER_BLOCK);
+        let groups = before.counters.face_items.div_ceil(BLOCK_SIZE / LIT_WORDS_PER_BLOCK);
         let outputs = run(gpu, &stage, &before, groups);
         let mut after = before.clone();
         after.lit = outputs.get("lit");
@@ -37,8 +37,8 @@ fn decides_right_or_lists(gpu: &Gpu) -> Outcome {
         twin.run_mirror("classify_faces");
         let (listed, listed_by_twin) = (listed(&after)?, listed(&twin)?);
         check_listed(&listed, &listed_by_twin)?;
-        by_positions += before.face_items.iter().filter(|item| item.by_positions == 1).count();
-        by_planes += before.face_items.iter().filter(|item| item.by_positions == 0).count();
+        by_positions += before.listed_faces().iter().filter(|item| item.by_positions == 1).count();
+        by_planes += before.listed_faces().iter().filter(|item| item.by_positions == 0).count();
         let is_listed = |caster, face_id: u32| {
             listed.get(&(caster, face_id / 32)).is_some_and(|faces| faces >> (face_id % 32) & 1 == 1)
         };

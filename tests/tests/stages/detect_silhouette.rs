@@ -38,7 +38,7 @@ fn equals_its_twin_on_random_bits(gpu: &Gpu) -> Outcome {
 fn compare(gpu: &Gpu, stage: &StageRun, frame: &Frame) -> Outcome {
     let mut twin = frame.clone();
     twin.outline_sides.fill(u32::MAX);
-    let outputs = run(gpu, stage, &twin, twin.view.edge_item_count);
+    let outputs = run(gpu, stage, &twin, twin.counters.edge_items);
     twin.run_mirror("detect_silhouette");
     let counters: Vec<Counters> = outputs.get("counters");
     compare_exact("counters", &[twin.counters], &counters)?;
@@ -57,7 +57,7 @@ fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
 
         let mut frame = case.frame.clone();
         frame.set_room(ViewCounts { silhouettes: room, ..Default::default() });
-        let outputs = run(gpu, &stage, &frame, frame.view.edge_item_count);
+        let outputs = run(gpu, &stage, &frame, frame.counters.edge_items);
         compare_exact("counters", &[complete.counters], &outputs.get::<Counters>("counters"))?;
         let found: Vec<SilhouetteEdge> = outputs.get("silhouettes");
         for edge in &found {

@@ -47,7 +47,7 @@ const FAULTS: [Fault; 2] = [
 fn check(gpu: &Gpu, stage: &StageRun) -> Outcome {
     for (size, cone) in SIZES.into_iter().flat_map(|size| CONES.map(|cone| (size, cone))) {
         let mut frame = Frame::new(&triangles(size).parts, &lamp(cone), &ShadowSettings::default());
-        frame.run_mirrors("classify_faces", "extrude_edges");
+        frame.run_mirrors("place_casters", "extrude_edges");
         let outputs = run(gpu, stage, &frame, frame.extrude_args[0].x * frame.extrude_args[0].y);
         frame.run_mirror("extrude_edges");
         let count = outputs.get::<Counters>("counters")[0].quads;

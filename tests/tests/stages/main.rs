@@ -5,14 +5,18 @@ mod classify_faces;
 mod detect_silhouette;
 mod device_errors;
 mod extrude_edges;
+mod float64;
 mod huge_edges;
+mod list_blocks;
 mod outline_balls;
 mod parity;
+mod place_casters;
 mod recheck_faces;
 mod refine_faces;
 mod resolve_faces;
 mod write_draw_args;
 mod write_extrude_args;
+mod write_item_args;
 mod write_recheck_args;
 mod write_refine_args;
 
@@ -21,6 +25,10 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let trials = [
         device_errors::trials(),
+        float64::trials(),
+        place_casters::trials(),
+        list_blocks::trials(),
+        write_item_args::trials(),
         classify_faces::trials(),
         write_recheck_args::trials(),
         recheck_faces::trials(),

@@ -48,7 +48,7 @@ fn for_each_case_of(meshes: &[TestMesh], stage: &str, mut check: impl FnMut(&Cas
         let step = if mesh.face_count() > 500 { 6 } else { 3 };
         for (index, light) in lights(mesh).iter().enumerate().step_by(step) {
             let mut case = Case { name: format!("{}, light {index}", mesh.name), frame: frame(&mesh.parts, light) };
-            case.frame.run_mirrors("classify_faces", stage);
+            case.frame.run_mirrors("place_casters", stage);
             check(&case).map_err(|difference| format!("{}: {difference}", case.name))?;
         }
     }
@@ -105,7 +105,7 @@ pub fn run(gpu: &Gpu, stage: &StageRun, frame: &Frame, groups: u32) -> Outputs {
 pub fn check_bits(before: &Frame, stage: &str, after: &Frame, is_listed: impl Fn(u32, u32) -> bool) -> Outcome {
     let mut exact = before.clone();
     exact.run_mirrors(stage, "detect_silhouette");
-    for item in &after.face_items {
+    for item in after.listed_faces() {
         let caster = &after.casters[item.caster as usize];
         for face_id in 64 * item.block..64 * (item.block + 1) {
             let word = (caster.first_lit_word + face_id / 32) as usize;

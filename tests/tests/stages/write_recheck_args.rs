@@ -19,13 +19,13 @@ pub fn trials() -> Vec<Trial> {
 fn equals_its_twin(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "write_recheck_args");
     for recheck_words in COUNTS {
-        for face_item_count in COUNTS {
-            let view = LightView { face_item_count, ..Default::default() };
+        for face_block_count in COUNTS {
+            let view = LightView { face_block_count, ..Default::default() };
             let counters = Counters { recheck_words, ..Default::default() };
             let mut frame = Frame { view, counters, ..Frame::empty() };
             let outputs = run(gpu, &stage, &frame, 1);
             frame.run_mirror("write_recheck_args");
-            let what = format!("recheck_args of {recheck_words} words in {face_item_count} items");
+            let what = format!("recheck_args of {recheck_words} words in {face_block_count} blocks");
             compare_exact(&what, &frame.recheck_args, &outputs.get::<DispatchArgs>("recheck_args"))?;
         }
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{BLOCK_SIZE, Caster, SilhouetteEdge, WorkItem};
 use contrejour_mirror::{FrameInputs, run_frame};
-use contrejour_plan::{Light, NearOne, Outputs, ShadowSettings, View, ViewCounts, caster_light, views};
+use contrejour_plan::{Light, NearOne, Outputs, ShadowSettings, View, ViewCounts, caster_light, object_light, views};
 use contrejour_render::{Gpu, read_silhouettes};
 
 use super::found::PlacedMesh;
@@ -29,7 +29,7 @@ pub fn on_gpu(placed: &[PlacedMesh<'_>], light: &Light) -> Result<Vec<Silhouette
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     shadows.encode(&mut encoder, &mut Untimed);
     gpu.queue.submit([encoder.finish()]);
-    warn_of_singular_casters(shadows.stats().singular_casters);
+    warn_of_singular_casters(placed, &views(light)?[0]);
     Ok(read_silhouettes(&gpu, &shadows)?)
 }
 
@@ -38,14 +38,11 @@ pub fn on_cpu(placed: &[PlacedMesh<'_>], light: &Light) -> Result<Vec<Silhouette
     let views = views(light)?;
     let view = views.first().ok_or("the light has no view")?;
     let mut silhouettes = Vec::new();
-    let mut singular_casters = 0;
     for (placed, caster) in placed.iter().zip(0..) {
-        match silhouettes_of(placed, view) {
-            Some(found) => silhouettes.extend(found.into_iter().map(|edge| SilhouetteEdge { caster, ..edge })),
-            None => singular_casters += 1,
-        }
+        let found = silhouettes_of(placed, view).unwrap_or_default();
+        silhouettes.extend(found.into_iter().map(|edge| SilhouetteEdge { caster, ..edge }));
     }
-    warn_of_singular_casters(singular_casters);
+    warn_of_singular_casters(placed, view);
     Ok(silhouettes)
 }
 
@@ -75,8 +72,9 @@ fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<Silhouette
     };
     // Without room for quads and corners none are kept.
     let counts = ViewCounts {
-        face_items: face_items.len() as u32,
-        edge_items: edge_items.len() as u32,
+        casters: 1,
+        face_blocks: face_items.len() as u32,
+        edge_blocks: edge_items.len() as u32,
         undecided: face_count,
         silhouettes: edge_count,
         quads: 0,
@@ -98,7 +96,9 @@ fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<Silhouette
     Some(frame.silhouettes)
 }
 
-fn warn_of_singular_casters(count: u32) {
+fn warn_of_singular_casters(placed: &[PlacedMesh<'_>], view: &View) {
+    let is_singular = |placed: &&PlacedMesh<'_>| object_light(view.light_world, &placed.world_from_object).singular;
+    let count = placed.iter().filter(is_singular).count();
     if count > 0 {
         warn(&format!("{count} nodes have a matrix without an inverse for this light, so they have no silhouette"));
     }

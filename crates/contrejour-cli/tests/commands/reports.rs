@@ -30,7 +30,7 @@ fn plan_tells() -> Outcome {
     }
     let json = folder.run("plan boxes --json").json()?;
     let stages = json["plan"]["stages"].as_array().map(Vec::len);
-    if stages == Some(11) && json.get("device").is_some() {
+    if stages == Some(14) && json.get("device").is_some() {
         Ok(())
     } else {
         Err(format!("{stages:?} stages in {json}"))

@@ -7,7 +7,7 @@ pub(super) const HARDWARE_SHADOW_MAP: MapPass = MapPass {
     pass: Pass::HardwareShadowMap,
     wgsl: SHADOW_MAP_WGSL,
     reads: None,
-    draws: &[DrawCount::FaceItems],
+    draws: &[DrawCount::Indirect(0)],
     levels: Levels::First,
     color: None,
     depth: Some(DepthTarget { texture: TextureKind::ShadowHardwareDepth, is_kept: true }),

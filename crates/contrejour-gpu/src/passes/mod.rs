@@ -35,8 +35,6 @@ pub struct MapPass {
 /// Where a number of vertices comes from.
 #[derive(Clone, Copy, Debug)]
 pub enum DrawCount {
-    /// Three for each of 64 faces for each work item.
-    FaceItems,
     /// An entry of the indirect draw arguments.
     Indirect(u32),
     /// One triangle.
@@ -101,7 +99,7 @@ const SHADOW_MAP_WGSL: &str =
 
 const SMOOTHIE_WGSL: &str = wgsl!("raster/smoothie_buffer", "light", "args", "outline", "view_depth");
 
-const SMOOTHIE_DRAWS: &[DrawCount] = &[DrawCount::Indirect(0), DrawCount::Indirect(1)];
+const SMOOTHIE_DRAWS: &[DrawCount] = &[DrawCount::Indirect(1), DrawCount::Indirect(2)];
 
 /// The shader modules of the raster passes, those of one text once.
 pub(crate) const MODULES: &[ShaderModule] = &[

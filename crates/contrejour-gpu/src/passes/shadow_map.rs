@@ -7,7 +7,7 @@ pub(super) const SHADOW_MAP: MapPass = MapPass {
     pass: Pass::ShadowMap,
     wgsl: SHADOW_MAP_WGSL,
     reads: None,
-    draws: &[DrawCount::FaceItems],
+    draws: &[DrawCount::Indirect(0)],
     levels: Levels::First,
     color: Some(ColorTarget { texture: TextureKind::ShadowDepth, clear: ClearColor::FarDepth, minimum: false }),
     depth: Some(DepthTarget { texture: TextureKind::ShadowHardwareDepth, is_kept: false }),

@@ -8,5 +8,5 @@ pub(super) const CLASSIFY_FACES: ComputeStage = ComputeStage {
     stage: Stage::ClassifyFaces,
     wgsl: wgsl!("compute/classify_faces", "topology", "light", "outline", "invocation", "atomic_counters"),
     writes: &[BufferKind::Lit, BufferKind::RecheckWords, BufferKind::Counters],
-    dispatch: Dispatch::ItemWords(BufferKind::FaceItems),
+    dispatch: Dispatch::Indirect(BufferKind::ItemArgs, 0),
 };

@@ -8,5 +8,5 @@ pub(super) const DETECT_SILHOUETTE: ComputeStage = ComputeStage {
     stage: Stage::DetectSilhouette,
     wgsl: wgsl!("compute/detect_silhouette", "topology", "light", "outline", "invocation", "append", "atomic_counters"),
     writes: &[BufferKind::Silhouettes, BufferKind::OutlineSides, BufferKind::Counters],
-    dispatch: Dispatch::Items(BufferKind::EdgeItems),
+    dispatch: Dispatch::Indirect(BufferKind::ItemArgs, 1),
 };

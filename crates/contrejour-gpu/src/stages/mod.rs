@@ -4,11 +4,14 @@ mod build_corners;
 mod classify_faces;
 mod detect_silhouette;
 mod extrude_edges;
+mod list_blocks;
+mod place_casters;
 mod recheck_faces;
 mod refine_faces;
 mod resolve_faces;
 mod write_draw_args;
 mod write_extrude_args;
+mod write_item_args;
 mod write_recheck_args;
 mod write_refine_args;
 
@@ -30,10 +33,10 @@ pub struct ComputeStage {
 /// Where the number of workgroups of a stage comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dispatch {
-    /// One workgroup for each item of a buffer of work items.
-    Items(BufferKind),
-    /// One invocation for each word of lit bits of the items.
-    ItemWords(BufferKind),
+    /// One invocation for each caster, once for all pages.
+    Casters,
+    /// One invocation for each block of faces and for each block of edges, in workgroups of their own.
+    Blocks,
     /// One workgroup.
     Once,
     /// Arguments that an earlier stage wrote: the buffer, and which of its entries.
@@ -41,7 +44,10 @@ pub enum Dispatch {
 }
 
 /// All stages in the order in which a frame runs them.
-pub const ALL: [ComputeStage; 11] = [
+pub const ALL: [ComputeStage; 14] = [
+    place_casters::PLACE_CASTERS,
+    list_blocks::LIST_BLOCKS,
+    write_item_args::WRITE_ITEM_ARGS,
     classify_faces::CLASSIFY_FACES,
     write_recheck_args::WRITE_RECHECK_ARGS,
     recheck_faces::RECHECK_FACES,

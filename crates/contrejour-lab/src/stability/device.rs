@@ -47,6 +47,8 @@ pub(super) struct DeviceFrame<'a> {
 
 /// What a frame leaves.
 pub(super) struct DeviceOutputs {
+    /// Indices of the meshes that cast.
+    pub casting: Vec<usize>,
     /// Lit bits of all casting meshes, one after the other; none where the frame finds none.
     pub lit: Option<Vec<u32>>,
     pub silhouettes: Vec<SilhouetteEdge>,
@@ -129,6 +131,7 @@ impl<'a> DeviceFrame<'a> {
             + non_finite(&planes)
             + non_finite(&receiver_view);
         Ok(DeviceOutputs {
+            casting: (0..caster_lights.len()).filter(|caster| caster_lights[*caster].casts == 1).collect(),
             lit: self.shadows.buffer(BufferKind::Lit).map(|_| self.records(BufferKind::Lit)).transpose()?,
             silhouettes: self.counted(BufferKind::Silhouettes, |counters| counters.silhouette_edges)?,
             non_finite: of_records + self.non_finite_texels()?,

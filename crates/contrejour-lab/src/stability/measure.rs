@@ -4,9 +4,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use contrejour_gpu::Shadows;
-use contrejour_layout::{BLOCK_SIZE, CasterLight, Corner, LIT_WORDS_PER_BLOCK, Quad, SilhouetteEdge};
+use contrejour_layout::{CasterLight, Corner, Quad, SilhouetteEdge};
 use contrejour_oracle::{GapSearch, OracleTopology, blocker_image, open_vertices, outline_gaps};
-use contrejour_plan::{NearOne, Omitted, Reason, views};
+use contrejour_plan::{NearOne, Omitted, Reason, View, object_light, views};
 use contrejour_render::Gpu;
 use glam::{DVec2, Mat4, Vec3};
 
@@ -51,7 +51,6 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
     device.complete(&case.light)?;
     row.time_ms = device.time_ms(&case.light)?;
     let found = device.read()?;
-    let casting = device.shadows.plan().map_or(&[][..], |plan| &plan.casting);
 
     let placed: Vec<_> = meshes.iter().map(|mesh| (&*mesh.topology, mesh.world_from_object)).collect();
     let frame = MirrorFrame::new(&placed, &case.light, &case.settings).map_err(Refusal::from)?;
@@ -59,14 +58,13 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
 
     // Faces and silhouettes, caster by caster.
     let (mut faces, mut wrong_f32, mut wrong, mut open) = (0, 0, 0, 0);
-    let mut first_lit_word = 0;
-    for &index in casting {
+    for &index in &found.casting {
         let (mesh, light) = (&*meshes[index].topology, &frame.caster_lights[index]);
-        let words = mesh.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize;
         let exact = FaceSigns::exact(mesh, light);
-        let mut lit = vec![&twin.lit[frame.casters[index].first_lit_word as usize..]];
+        // All casters have room for their bits, on the device too.
+        let first_lit_word = frame.casters[index].first_lit_word as usize;
+        let mut lit = vec![&twin.lit[first_lit_word..]];
         lit.extend(found.lit.as_ref().map(|lit| &lit[first_lit_word..]));
-        first_lit_word += words;
         faces += mesh.faces.len() as u64;
         wrong_f32 += wrong_signs(&exact, &[&bare_lit(mesh, light)]);
         wrong += wrong_signs(&exact, &lit);
@@ -112,6 +110,11 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
         });
         row.gaps = missing.into_iter().max().map(|missing| missing + points.unwrap_or(0));
     }
+    for (mesh, index) in meshes.iter().zip(0..) {
+        if !found.casting.contains(&index) {
+            add_reason(&mut row.degrades, &format!("the mesh casts nothing: {}", why_idle(mesh, &view)));
+        }
+    }
     explain(row, &device.shadows);
     // Before it is looked at with maps of its own: large ones would stand twice.
     drop(device);
@@ -142,15 +145,26 @@ fn blockers(meshes: &[DeviceMesh], frame: &MirrorFrame) -> Vec<[DVec2; 3]> {
     meshes.iter().zip(&frame.caster_lights).flat_map(of_mesh).collect()
 }
 
+/// Why a mesh does not cast.
+fn why_idle(mesh: &DeviceMesh, view: &View) -> Reason {
+    if mesh.topology.faces.is_empty() {
+        Reason::NoFaces
+    } else if object_light(view.light_world, &mesh.world_from_object).singular {
+        Reason::SingularMatrix
+    } else {
+        Reason::OutsideFrustum
+    }
+}
+
 /// Adds what the library itself says that it left out.
 fn explain(row: &mut Row, shadows: &Shadows) {
     let left_out = shadows.plan().map_or(&[][..], |plan| &plan.left_out);
     let told = left_out.iter().filter_map(|left_out| match (&left_out.what, left_out.reason) {
-        (Omitted::CasterWork(_), reason) => Some(format!("the mesh casts nothing: {reason}")),
         (Omitted::DetectionStages, Reason::LightHasNoSize) => Some(format!("no silhouette: {}", left_out.reason)),
         _ => None,
     });
-    let imageless = (shadows.stats().imageless_casters > 0).then(|| {
+    let counters = shadows.stats().counters.unwrap_or_default();
+    let imageless = (counters.imageless_casters > 0).then(|| {
         "32-bit floats can't hold the view's clip space: the silhouette is found, no shadow is thrown".to_owned()
     });
     told.chain(imageless).for_each(|reason| add_reason(&mut row.degrades, &reason));

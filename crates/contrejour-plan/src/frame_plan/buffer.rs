@@ -21,10 +21,18 @@ pub enum BufferKind {
     VertexEdges,
     /// Caster records.
     Casters,
-    /// Work items of faces.
+    /// Where each caster stands.
+    CasterPlaces,
+    /// Blocks of faces of all casters.
+    FaceBlocks,
+    /// Blocks of edges of all casters.
+    EdgeBlocks,
+    /// Those blocks of faces whose casters cast for the view.
     FaceItems,
-    /// Work items of edges.
+    /// Those blocks of edges whose casters cast for the view.
     EdgeItems,
+    /// Dispatch arguments of `classify_faces` and `detect_silhouette`.
+    ItemArgs,
     /// The light as each caster sees it.
     CasterLights,
     /// The light view; a uniform.
@@ -53,7 +61,7 @@ pub enum BufferKind {
     Quads,
     /// Corners.
     Corners,
-    /// Draw arguments of quads and of corners.
+    /// Draw arguments of faces, of quads and of corners.
     DrawArgs,
 }
 
@@ -73,7 +81,7 @@ pub struct BufferPlan {
 
 impl BufferKind {
     /// All buffers.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 28] = [
         Self::Positions,
         Self::Faces,
         Self::Planes,
@@ -81,8 +89,12 @@ impl BufferKind {
         Self::Incidences,
         Self::VertexEdges,
         Self::Casters,
+        Self::CasterPlaces,
+        Self::FaceBlocks,
+        Self::EdgeBlocks,
         Self::FaceItems,
         Self::EdgeItems,
+        Self::ItemArgs,
         Self::CasterLights,
         Self::LightView,
         Self::ReceiverView,
@@ -110,8 +122,12 @@ impl BufferKind {
             Self::Incidences => "incidences",
             Self::VertexEdges => "vertex_edges",
             Self::Casters => "casters",
+            Self::CasterPlaces => "caster_places",
+            Self::FaceBlocks => "face_blocks",
+            Self::EdgeBlocks => "edge_blocks",
             Self::FaceItems => "face_items",
             Self::EdgeItems => "edge_items",
+            Self::ItemArgs => "item_args",
             Self::CasterLights => "caster_lights",
             Self::LightView => "light_view",
             Self::ReceiverView => "receiver_view",
@@ -132,7 +148,15 @@ impl BufferKind {
 
     /// Whether each page has one of its own. The others serve all pages: they are small, or vertex ids index them.
     pub const fn is_paged(self) -> bool {
-        !matches!(self, Self::Positions | Self::CasterLights | Self::ReceiverView | Self::Lit | Self::OutlineSides)
+        !matches!(
+            self,
+            Self::Positions
+                | Self::CasterPlaces
+                | Self::CasterLights
+                | Self::ReceiverView
+                | Self::Lit
+                | Self::OutlineSides
+        )
     }
 
     /// Size of one record or word, in bytes.
@@ -143,13 +167,16 @@ impl BufferKind {
             Self::Planes => size_of::<[f32; 4]>(),
             Self::Edges => size_of::<layout::Edge>(),
             Self::Casters => size_of::<layout::Caster>(),
-            Self::FaceItems | Self::EdgeItems => size_of::<layout::WorkItem>(),
+            Self::CasterPlaces => size_of::<layout::CasterPlace>(),
+            Self::FaceBlocks | Self::EdgeBlocks | Self::FaceItems | Self::EdgeItems => size_of::<layout::WorkItem>(),
             Self::CasterLights => size_of::<layout::CasterLight>(),
             Self::LightView => size_of::<layout::LightView>(),
             Self::ReceiverView => size_of::<layout::ReceiverView>(),
             Self::RecheckWords => size_of::<layout::RecheckWord>(),
             Self::Undecided => size_of::<layout::FaceRef>(),
-            Self::RecheckArgs | Self::RefineArgs | Self::ExtrudeArgs => size_of::<layout::DispatchArgs>(),
+            Self::ItemArgs | Self::RecheckArgs | Self::RefineArgs | Self::ExtrudeArgs => {
+                size_of::<layout::DispatchArgs>()
+            }
             Self::Counters => size_of::<layout::Counters>(),
             Self::Silhouettes => size_of::<layout::SilhouetteEdge>(),
             Self::Quads => size_of::<layout::Quad>(),

@@ -3,9 +3,6 @@
 use super::{CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
 use crate::{DepthPrecision, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
 
-/// Texels by which a frustum is widened for filters and for rounding.
-const GUARD_TEXELS: f64 = 2.0;
-
 /// The passes that one technique or another can do without, smoothies apart, and why.
 const MAP_PASSES: [Pass; 4] = [Pass::HardwareShadowMap, Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments];
 const WITHOUT_MAP_PASS: [Reason; 4] = [
@@ -60,14 +57,17 @@ pub(super) fn stages(input: &PlanInput<'_>, has_smoothies: bool, left_out: &mut 
     if has_smoothies {
         return Stage::ALL.to_vec();
     }
-    if input.outputs != Outputs::Silhouettes {
-        return Vec::new();
-    }
     if nothing_casts(input.scene) {
-        left_out.add(Omitted::DetectionStages, Reason::NothingCasts);
+        left_out.add(Omitted::PlacementStages, Reason::NothingCasts);
+        if input.outputs == Outputs::Silhouettes {
+            left_out.add(Omitted::DetectionStages, Reason::NothingCasts);
+        }
         return Vec::new();
     }
-    Stage::DETECTION.to_vec()
+    match input.outputs {
+        Outputs::Silhouettes => Stage::UP_TO_SILHOUETTES.to_vec(),
+        _ => Stage::PLACEMENT.to_vec(),
+    }
 }
 
 /// The raster passes of the frame.
@@ -132,14 +132,8 @@ fn smoothie_passes(input: &PlanInput<'_>, smoothies: &SmoothieSettings, left_out
 }
 
 /// Indices of the casters that have work items.
-pub(super) fn casting(
-    input: &PlanInput<'_>,
-    smoothies: Option<&SmoothieSettings>,
-    left_out: &mut LeftOutList,
-) -> Vec<usize> {
-    let map_size = input.settings.map_size;
-    let widest = smoothies.map_or(0.0, |smoothies| input.view.widest_smoothie_ndc(smoothies, map_size));
-    let guard_ndc = widest + GUARD_TEXELS * 2.0 / f64::from(map_size);
+pub(super) fn casting(input: &PlanInput<'_>, left_out: &mut LeftOutList) -> Vec<usize> {
+    let guard_ndc = input.view.guard_ndc(input.settings);
     let mut casting = Vec::new();
     for (index, caster) in input.scene.casters.iter().enumerate() {
         let reason = match &caster.bounds {

@@ -14,9 +14,9 @@ impl fmt::Display for FramePlan {
         writeln!(formatter, "wanted: {wanted}")?;
         writeln!(formatter, "technique: {}, {} texels", self.settings.technique, self.settings.map_size)?;
         let casting = self.casting.len();
-        let face_items: u64 = self.pages.iter().map(|page| u64::from(page.counts.face_items)).sum();
-        let edge_items: u64 = self.pages.iter().map(|page| u64::from(page.counts.edge_items)).sum();
-        writeln!(formatter, "casting: {casting} ({face_items} blocks of faces, {edge_items} of edges)")?;
+        let face_blocks: u64 = self.pages.iter().map(|page| u64::from(page.counts.face_blocks)).sum();
+        let edge_blocks: u64 = self.pages.iter().map(|page| u64::from(page.counts.edge_blocks)).sum();
+        writeln!(formatter, "casting: {casting}; {face_blocks} blocks of faces, {edge_blocks} of edges at most")?;
         if self.pages.len() > 1 {
             writeln!(formatter, "pages: {}", self.pages.len())?;
         }

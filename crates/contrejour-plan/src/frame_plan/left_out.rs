@@ -20,6 +20,8 @@ pub struct LeftOut {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Omitted {
+    /// The stages that place casters and list their blocks.
+    PlacementStages,
     /// The stages that find silhouettes, with their buffers.
     DetectionStages,
     /// The stages that make quads and corners, with their buffers.
@@ -97,6 +99,7 @@ pub enum Reason {
 impl fmt::Display for Omitted {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = match self {
+            Self::PlacementStages => "placement stages",
             Self::DetectionStages => "detection stages",
             Self::ExtrusionStages => "extrusion stages",
             Self::SmoothiePasses => "smoothie passes",

@@ -13,7 +13,7 @@ pub struct PagePlan {
     pub pieces: Vec<MeshPiece>,
     /// The casters that have work here.
     pub casters: Vec<PagedCaster>,
-    /// Work items of this frame, and the room in each list.
+    /// How much there is to work on, and the room in each list.
     pub counts: ViewCounts,
 }
 
@@ -54,13 +54,13 @@ pub(super) struct Page {
 
 impl Page {
     /// A page without pieces.
-    fn new(scene: &SceneFacts, floor: Capacity) -> Self {
-        Self { pieces: Vec::new(), casters: Vec::new(), sizes: PageSizes::new(scene, floor) }
+    fn new(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity) -> Self {
+        Self { pieces: Vec::new(), casters: Vec::new(), sizes: PageSizes::new(scene, kinds, floor) }
     }
 
     /// All meshes, also those that nothing casts yet.
-    fn whole(scene: &SceneFacts, floor: Capacity) -> Self {
-        let mut page = Self::new(scene, floor);
+    fn whole(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity) -> Self {
+        let mut page = Self::new(scene, kinds, floor);
         for (mesh, facts) in scene.meshes.iter().enumerate() {
             let piece = MeshPiece::whole(mesh, facts);
             page.sizes.add_piece(&piece, facts);
@@ -98,7 +98,7 @@ impl Page {
 
 /// Spreads a scene over at least one page whose buffers of the given kinds the device allows, as far as it can be cut.
 pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFacts, floor: Capacity) -> Vec<Page> {
-    let whole = Page::whole(scene, floor);
+    let whole = Page::whole(scene, kinds, floor);
     if whole.sizes.fit(kinds, device) {
         return vec![whole];
     }
@@ -107,7 +107,7 @@ pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFac
         casters_of[facts.mesh].push(caster);
     }
     let mut full = Vec::new();
-    let mut page = Page::new(scene, floor);
+    let mut page = Page::new(scene, kinds, floor);
     for (mesh, facts) in scene.meshes.iter().enumerate() {
         let mut pieces: Vec<_> = scene.pieces.iter().filter(|piece| piece.mesh == mesh).copied().collect();
         if pieces.is_empty() {
@@ -116,7 +116,7 @@ pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFac
         for piece in &pieces {
             for &caster in &casters_of[mesh] {
                 if !page.add(piece, caster, facts, |sizes| sizes.fit(kinds, device)) {
-                    full.push(std::mem::replace(&mut page, Page::new(scene, floor)));
+                    full.push(std::mem::replace(&mut page, Page::new(scene, kinds, floor)));
                     page.add(piece, caster, facts, |_| true);
                 }
             }

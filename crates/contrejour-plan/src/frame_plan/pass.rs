@@ -57,7 +57,7 @@ impl Pass {
     pub const fn buffers(self) -> &'static [BufferKind] {
         match self {
             Self::HardwareShadowMap | Self::ShadowMap => {
-                &[LightView, FaceItems, Casters, CasterLights, Faces, Positions]
+                &[LightView, FaceItems, Casters, CasterLights, Faces, Positions, DrawArgs]
             }
             Self::Moments => &[LightView],
             Self::BlurredMoments => &[],

@@ -28,8 +28,8 @@ pub struct PlanInput<'a> {
 
 /// Everything that a frame of one light does and holds. Nothing else is created.
 ///
-/// Buffers have room for all casters of the scene, so that a light that moves creates nothing; `casting` and the counts
-/// of each page are those of this frame.
+/// Buffers have room for all casters of the scene, so that a light that moves creates nothing. Which of them cast for a
+/// view is decided on the device; `casting` says what comes out where the CPU knows where they stand.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FramePlan {
@@ -51,7 +51,7 @@ pub struct FramePlan {
     pub buffers: Vec<BufferPlan>,
     /// Textures.
     pub textures: Vec<TexturePlan>,
-    /// Indices of the casters that have work items in this frame, ascending.
+    /// Indices of the casters that have work items in this frame, ascending, but for those near the frustum's edge.
     pub casting: Vec<usize>,
     /// Casters without a place for the light: their matrix is singular.
     pub singular_casters: u32,
@@ -87,7 +87,7 @@ impl FramePlan {
         note_planes(scene, &stages, &mut left_out);
 
         // Decide who casts in this frame.
-        let casting = casting(input, smoothies.as_ref(), &mut left_out);
+        let casting = casting(input, &mut left_out);
         left_out.all(scene.receivers.iter().map(|name| Omitted::Topology(name.clone())), Reason::ReceivesOnly);
         left_out.add(Omitted::InstanceTransforms, Reason::NothingIsInstanced);
         left_out.add(Omitted::Deformation, Reason::NothingIsSkinned);
@@ -102,10 +102,10 @@ impl FramePlan {
         let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, &settings.technique));
         let pipelines = of_stages.chain(of_passes).collect();
 
-        let has_edges = !stages.is_empty();
+        let has_edges = stages.contains(&Stage::DetectSilhouette);
         let pages = (pages.into_iter().enumerate())
             .map(|(index, page)| PagePlan {
-                counts: counts(&page, &casting, has_edges, &buffers, index),
+                counts: counts(&page, scene.casters.len(), has_edges, &buffers, index),
                 pieces: page.pieces,
                 casters: page.casters,
             })
@@ -186,19 +186,17 @@ fn buffers(
     Ok(buffers)
 }
 
-/// Work items on a page, and the room in its lists.
-fn counts(page: &Page, casting: &[usize], has_edges: bool, buffers: &[BufferPlan], index: usize) -> ViewCounts {
+/// Blocks on a page, and the room in its lists.
+fn counts(page: &Page, casters: usize, has_edges: bool, buffers: &[BufferPlan], index: usize) -> ViewCounts {
     let room = |kind| {
         let listed = buffers.iter().find(|buffer| buffer.kind == kind && buffer.page == index);
         listed.map_or(0, |buffer| buffer.items as u32)
     };
-    let work = |blocks: fn(&MeshPiece) -> u32| {
-        let here = page.casters.iter().filter(|here| casting.binary_search(&here.caster).is_ok());
-        here.map(|here| blocks(&page.pieces[here.piece])).sum()
-    };
+    let blocks = |blocks: fn(&MeshPiece) -> u32| page.casters.iter().map(|here| blocks(&page.pieces[here.piece])).sum();
     ViewCounts {
-        face_items: work(MeshPiece::face_blocks),
-        edge_items: if has_edges { work(MeshPiece::edge_blocks) } else { 0 },
+        casters: casters as u32,
+        face_blocks: blocks(MeshPiece::face_blocks),
+        edge_blocks: if has_edges { blocks(MeshPiece::edge_blocks) } else { 0 },
         undecided: room(BufferKind::Undecided),
         silhouettes: room(BufferKind::Silhouettes),
         quads: room(BufferKind::Quads),

@@ -5,8 +5,11 @@ use contrejour_layout::{LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK};
 use super::capacity::expected_outline_edges;
 use super::{BufferKind, BufferPlan, Capacity, CasterFacts, DeviceFacts, MeshFacts, MeshPiece, PlanError, SceneFacts};
 
-/// Entries of refine, extrude and draw arguments: each serves two stages or draws.
-const INDIRECT_ENTRIES: u64 = 2;
+/// Entries of item, refine and extrude arguments: each serves two stages.
+const INDIRECT_DISPATCHES: u64 = 2;
+
+/// Faces, quads and corners.
+const INDIRECT_DRAWS: u64 = 3;
 
 /// Sizes of the buffers that serve all pages, with room for all casters of a scene, whether the light sees them or not:
 /// it may in the next frame, and nothing is to be created then.
@@ -34,6 +37,8 @@ pub(super) struct PageSizes {
     edge_blocks: u64,
     /// No caster has planes.
     lacks_planes: bool,
+    /// No stage looks at edges.
+    lacks_edges: bool,
     outline_edges: u64,
     /// Room for quads and corners that earlier frames are known to need.
     floor: Capacity,
@@ -60,7 +65,7 @@ impl SceneSizes {
     pub fn buffer(&self, kind: BufferKind, device: &DeviceFacts) -> Result<BufferPlan, PlanError> {
         let items = match kind {
             BufferKind::Positions => self.position_words,
-            BufferKind::CasterLights => self.casters,
+            BufferKind::CasterPlaces | BufferKind::CasterLights => self.casters,
             BufferKind::Lit => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
             BufferKind::OutlineSides => self.edge_blocks * u64::from(OUTLINE_WORDS_PER_BLOCK),
             _ => 1,
@@ -71,9 +76,10 @@ impl SceneSizes {
 
 impl PageSizes {
     /// Sizes of a page without pieces.
-    pub fn new(scene: &SceneFacts, floor: Capacity) -> Self {
+    pub fn new(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity) -> Self {
+        let lacks_edges = !kinds.contains(&BufferKind::Edges);
         let lacks_planes = !scene.casters.iter().any(CasterFacts::has_planes);
-        Self { casters: scene.casters.len() as u64, lacks_planes, floor, ..Self::default() }
+        Self { casters: scene.casters.len() as u64, lacks_planes, lacks_edges, floor, ..Self::default() }
     }
 
     /// Makes room for a piece in the pools.
@@ -105,14 +111,16 @@ impl PageSizes {
             BufferKind::Incidences => self.incidence_words,
             BufferKind::VertexEdges => self.vertex_edge_words,
             BufferKind::Casters => self.casters,
-            BufferKind::FaceItems => self.face_blocks,
-            BufferKind::EdgeItems => self.edge_blocks,
+            BufferKind::FaceBlocks | BufferKind::FaceItems => self.face_blocks,
+            BufferKind::EdgeBlocks | BufferKind::EdgeItems if self.lacks_edges => 0,
+            BufferKind::EdgeBlocks | BufferKind::EdgeItems => self.edge_blocks,
             BufferKind::RecheckWords => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
             BufferKind::Undecided => self.faces,
             BufferKind::Silhouettes => self.edges,
             BufferKind::Quads => capacity.quads.into(),
             BufferKind::Corners => capacity.corners.into(),
-            BufferKind::RefineArgs | BufferKind::ExtrudeArgs | BufferKind::DrawArgs => INDIRECT_ENTRIES,
+            BufferKind::ItemArgs | BufferKind::RefineArgs | BufferKind::ExtrudeArgs => INDIRECT_DISPATCHES,
+            BufferKind::DrawArgs => INDIRECT_DRAWS,
             _ => 1,
         }
     }

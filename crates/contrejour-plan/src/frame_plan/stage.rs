@@ -7,6 +7,12 @@ use super::BufferKind::{self, *};
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Stage {
+    /// From where casters stand to the light as each sees it; leaves out those that the view can't see.
+    PlaceCasters,
+    /// From the blocks of all casters to work items of those that cast for the view.
+    ListBlocks,
+    /// From work items to the dispatches and the draw that work on them.
+    WriteItemArgs,
     /// One lit bit for each face, by its stored plane where the bound allows; the others are listed by words.
     ClassifyFaces,
     /// From words with faces to recheck to the dispatch over those faces.
@@ -33,7 +39,10 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which a frame runs them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 14] = [
+        Self::PlaceCasters,
+        Self::ListBlocks,
+        Self::WriteItemArgs,
         Self::ClassifyFaces,
         Self::WriteRecheckArgs,
         Self::RecheckFaces,
@@ -47,12 +56,21 @@ impl Stage {
         Self::WriteDrawArgs,
     ];
 
+    /// The stages that decide what a view works on; every technique needs them.
+    pub const PLACEMENT: &[Self] = Self::UP_TO_SILHOUETTES.split_at(3).0;
+
+    /// The stages that find the silhouette.
+    pub const DETECTION: &[Self] = Self::UP_TO_SILHOUETTES.split_at(3).1;
+
     /// The stages that end with the list of silhouette edges; the others extrude them.
-    pub const DETECTION: &[Self] = Self::ALL.split_at(7).0;
+    pub const UP_TO_SILHOUETTES: &[Self] = Self::ALL.split_at(10).0;
 
     /// Its name: shader file, entry point, CPU twin and test.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::PlaceCasters => "place_casters",
+            Self::ListBlocks => "list_blocks",
+            Self::WriteItemArgs => "write_item_args",
             Self::ClassifyFaces => "classify_faces",
             Self::WriteRecheckArgs => "write_recheck_args",
             Self::RecheckFaces => "recheck_faces",
@@ -70,6 +88,9 @@ impl Stage {
     /// The buffers that its shader binds, in the order of their bindings; the first is a uniform.
     pub const fn buffers(self) -> &'static [BufferKind] {
         match self {
+            Self::PlaceCasters => &[LightView, CasterPlaces, CasterLights, Counters],
+            Self::ListBlocks => &[LightView, CasterLights, FaceBlocks, EdgeBlocks, FaceItems, EdgeItems, Counters],
+            Self::WriteItemArgs => &[LightView, Counters, ItemArgs, DrawArgs],
             Self::ClassifyFaces => &[LightView, FaceItems, Casters, CasterLights, Planes, Lit, RecheckWords, Counters],
             Self::WriteRecheckArgs => &[LightView, Counters, RecheckArgs],
             Self::RecheckFaces => {

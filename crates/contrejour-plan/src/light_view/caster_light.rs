@@ -6,7 +6,8 @@ use glam::{DMat4, DVec3, Mat4};
 use super::power_of_two::exponent_of;
 use super::{View, object_light};
 
-/// The light and the matrix of `view` for a caster whose positions are brought near 1 before the matrix.
+/// What the stage `place_casters` makes of a view for a caster that it sees, whose positions are brought near 1 before the
+/// matrix.
 ///
 /// `casts` is 0 where the caster's matrix is singular. Where `f32` can't hold its clip space, because it is too large or
 /// so small that devices may flush it to zero, the matrix is zero: its silhouette is found, its outline projects to a
@@ -14,9 +15,8 @@ use super::{View, object_light};
 pub fn caster_light(view: &View, world_from_object: &DMat4, near_one: &NearOne) -> CasterLight {
     let light = object_light(view.light_world, world_from_object);
     // Origin and scale are undone before the one rounding to f32.
-    let object_from_scaled = DMat4::from_translation(DVec3::from(near_one.origin.map(f64::from)))
-        * DMat4::from_scale(DVec3::splat(f64::from(near_one.scale).recip()));
-    let light_clip_from_object = (view.light_clip_from_world * *world_from_object * object_from_scaled).as_mat4();
+    let world_from_scaled = *world_from_object * near_one.object_from_scaled();
+    let light_clip_from_object = (view.light_clip_from_world * world_from_scaled).as_mat4();
     let has_image = !light.singular && is_held(&light_clip_from_object);
     CasterLight {
         light_object: light.bits,
@@ -51,6 +51,12 @@ pub struct NearOne {
 impl NearOne {
     /// Leaves positions as they are.
     pub const IDENTITY: Self = Self { origin: [0.0; 3], scale: 1.0 };
+
+    /// Undoes it.
+    pub(super) fn object_from_scaled(&self) -> DMat4 {
+        DMat4::from_translation(DVec3::from(self.origin.map(f64::from)))
+            * DMat4::from_scale(DVec3::splat(f64::from(self.scale).recip()))
+    }
 
     /// For a box of positions. Its largest coordinate ends in 1..2; beyond 2^127 in 2..4 and below 2^-127 below 1, since
     /// the scale is itself a normal float.

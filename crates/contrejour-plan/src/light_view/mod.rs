@@ -1,6 +1,7 @@
 //! Light views: the cameras that a light looks through.
 
 mod caster_light;
+mod caster_place;
 mod frustum;
 mod object_light;
 mod power_of_two;
@@ -8,6 +9,7 @@ mod records;
 mod view;
 
 pub use caster_light::{NearOne, caster_light};
+pub use caster_place::caster_place;
 pub use frustum::ObjectBox;
 pub use object_light::{ObjectLight, object_light};
 pub use records::ViewCounts;

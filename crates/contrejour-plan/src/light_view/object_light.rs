@@ -23,29 +23,48 @@ impl ObjectLight {
     const SINGULAR: Self = Self { bits: [0; 4], mirrored: false, singular: true };
 }
 
+/// The way from the world to the object space of a caster.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ObjectSpace {
+    /// Without the translation.
+    pub object_from_world: DMat3,
+    /// Where the object space's origin is.
+    pub origin_world: DVec3,
+    /// The caster's matrix mirrors.
+    pub mirrored: bool,
+}
+
+impl ObjectSpace {
+    /// `None` where the matrix is not affine, is not finite or flattens space.
+    pub fn new(world_from_object: &DMat4) -> Option<Self> {
+        let is_affine = world_from_object.row(3) == DVec4::W && world_from_object.is_finite();
+        let linear = DMat3::from_mat4(*world_from_object);
+        let determinant = linear.determinant();
+        let box_volume = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
+        if !(is_affine && determinant.abs() > FLAT * box_volume) {
+            return None;
+        }
+        let object_from_world = linear.try_inverse()?;
+        let origin_world = world_from_object.w_axis.truncate();
+        Some(Self { object_from_world, origin_world, mirrored: determinant < 0.0 })
+    }
+}
+
 /// Brings a homogeneous light (w is 0 or 1) to object space through the inverse of the caster's matrix.
 ///
 /// A direction keeps its length unless `f32` cannot hold it; then it is multiplied by a power of two.
 pub fn object_light(light_world: DVec4, world_from_object: &DMat4) -> ObjectLight {
-    let origin_world = world_from_object.w_axis;
-    let is_affine = world_from_object.row(3) == DVec4::W && world_from_object.is_finite();
-    let linear = DMat3::from_mat4(*world_from_object);
-    let determinant = linear.determinant();
-    let box_volume = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
-    if !(is_affine && determinant.abs() > FLAT * box_volume) {
-        return ObjectLight::SINGULAR;
-    }
-    let Some(object_from_world) = linear.try_inverse() else {
+    let Some(ObjectSpace { object_from_world, origin_world, mirrored }) = ObjectSpace::new(world_from_object) else {
         return ObjectLight::SINGULAR;
     };
     // Through the linear part alone: a point goes from the object's origin, so a mere translation is exact.
-    let light = object_from_world * (light_world - origin_world * light_world.w).truncate();
+    let light = object_from_world * (light_world.truncate() - origin_world * light_world.w);
     let rounded = if light_world.w == 0.0 { round_direction(light) } else { light }.as_vec3();
     if !rounded.is_finite() {
         return ObjectLight::SINGULAR;
     }
     let bits = rounded.extend(light_world.w as f32).to_array().map(f32::to_bits);
-    ObjectLight { bits, mirrored: determinant < 0.0, singular: false }
+    ObjectLight { bits, mirrored, singular: false }
 }
 
 /// A direction that `f32` can hold: as it is where that overflows nowhere and loses no bits to small numbers, else

@@ -2,20 +2,26 @@
 
 use contrejour_layout::{LightView, ReceiverView};
 
+use super::caster_place::words_of;
 use super::{Projection, View};
 use crate::{DepthPrecision, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, VarianceSoftness};
 
 /// The smallest smoothie width: less, and the rim falls between texels.
 const MIN_WIDTH_TEXELS: f64 = 1.5;
 
-/// Work items and room that a [`LightView`] tells the shaders.
+/// Texels by which a frustum is widened for filters and for rounding.
+const GUARD_TEXELS: f64 = 2.0;
+
+/// How much there is to work on, and room for it, as a [`LightView`] tells the shaders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ViewCounts {
-    /// Work items of faces.
-    pub face_items: u32,
-    /// Work items of edges.
-    pub edge_items: u32,
+    /// Casters, also those that cast for no view.
+    pub casters: u32,
+    /// Blocks of faces of all casters.
+    pub face_blocks: u32,
+    /// Blocks of edges of all casters.
+    pub edge_blocks: u32,
     /// Room in the list of undecided faces.
     pub undecided: u32,
     /// Room in the list of silhouette edges.
@@ -45,8 +51,8 @@ impl View {
         LightView {
             perspective: self.is_perspective(),
             map_size: settings.map_size,
-            face_item_count: counts.face_items,
-            edge_item_count: counts.edge_items,
+            face_block_count: counts.face_blocks,
+            edge_block_count: counts.edge_blocks,
             undecided_capacity: counts.undecided,
             silhouette_capacity: counts.silhouettes,
             quad_capacity: counts.quads,
@@ -67,7 +73,11 @@ impl View {
                 Technique::Variance(variance) => variance.warp_exponent,
                 _ => 0.0,
             },
-            ..LightView::default()
+            caster_count: counts.casters,
+            culls_casters: 1,
+            guard_ndc: self.guard_ndc(settings) as f32,
+            light_world: rows_of(self.light_world.to_array()),
+            light_clip_from_world: rows_of(self.light_clip_from_world.to_cols_array()),
         }
     }
 
@@ -116,6 +126,16 @@ impl View {
         }
     }
 
+    /// How far outside the frustum's sides a caster still matters, in NDC: it may have a smoothie in the map, and filters
+    /// look there.
+    pub fn guard_ndc(&self, settings: &ShadowSettings) -> f64 {
+        let widest = match &settings.technique {
+            Technique::Smoothies(smoothies) => self.widest_smoothie_ndc(smoothies, settings.map_size),
+            _ => 0.0,
+        };
+        widest + GUARD_TEXELS * 2.0 / f64::from(settings.map_size)
+    }
+
     /// The widest smoothie that a blocker anywhere between near and far can have, in NDC.
     pub fn widest_smoothie_ndc(&self, smoothies: &SmoothieSettings, map_size: u32) -> f64 {
         let width = self.width_terms(smoothies, map_size);
@@ -136,6 +156,14 @@ impl View {
     fn is_perspective(&self) -> u32 {
         (self.projection == Projection::Perspective).into()
     }
+}
+
+/// The words of 64-bit floats, two numbers to a row.
+fn rows_of<const N: usize, const ROWS: usize>(numbers: [f64; N]) -> [[u32; 4]; ROWS] {
+    core::array::from_fn(|row| {
+        let [[x, y], [z, w]] = [2 * row, 2 * row + 1].map(|place| words_of(numbers[place]));
+        [x, y, z, w]
+    })
 }
 
 #[cfg(test)]
@@ -234,17 +262,26 @@ mod tests {
 
     #[test]
     fn counts_and_map_reach_the_record() {
-        let counts = ViewCounts { face_items: 1, edge_items: 2, undecided: 3, silhouettes: 4, quads: 5, corners: 6 };
+        let counts = ViewCounts {
+            casters: 7,
+            face_blocks: 1,
+            edge_blocks: 2,
+            undecided: 3,
+            silhouettes: 4,
+            quads: 5,
+            corners: 6,
+        };
         let record = sun().light_view(&settings(SmoothieWidth::Ndc(0.1)), &counts);
         let stored = [
-            record.face_item_count,
-            record.edge_item_count,
+            record.face_block_count,
+            record.edge_block_count,
             record.undecided_capacity,
             record.silhouette_capacity,
             record.quad_capacity,
             record.corner_capacity,
+            record.caster_count,
         ];
-        assert_eq!(stored, [1, 2, 3, 4, 5, 6]);
+        assert_eq!(stored, [1, 2, 3, 4, 5, 6, 7]);
         assert_eq!((record.perspective, record.map_size), (0, 1024));
         assert_eq!((record.near_depth, record.far_depth, record.q_max), (0.0, 10.0, 10.0));
         assert_eq!(record.texel_world, 8.0 / 1024.0);

@@ -4,6 +4,7 @@ use glam::dcamera::rh::proj::directx::{orthographic, perspective};
 use glam::dcamera::rh::view::look_to_mat4;
 use glam::{DMat4, DVec3, DVec4};
 
+use super::power_of_two::exponent_of;
 use crate::{Light, LightError, LightKind};
 
 /// Directions whose y is more than this look up or down: the image plane's up is then an axis other than y.
@@ -26,7 +27,8 @@ pub struct View {
     /// Light clip space from world space. In a perspective view clip w is the linear depth; in an orthographic one
     /// w is 1 and clip z is `(depth - near) / (far - near)`.
     pub light_clip_from_world: DMat4,
-    /// The homogeneous light in world space: position and 1, or the direction towards the light as given and 0.
+    /// The homogeneous light in world space: position and 1, or the direction towards the light and 0. It is as long as
+    /// given, but for lengths beyond 2^-500..2^500, which are brought near 1 by a power of two.
     pub light_world: DVec4,
     /// Unit direction of the axis in world space, away from the light.
     pub axis_world: DVec3,
@@ -71,7 +73,7 @@ pub fn views(light: &Light) -> Result<Vec<View>, LightError> {
             View {
                 projection: Projection::Orthographic,
                 light_clip_from_world: light_clip_from_light * look_along(center - axis_world * half_depth, axis_world),
-                light_world: towards_light.extend(0.0),
+                light_world: without_extremes(towards_light).extend(0.0),
                 axis_world,
                 near_depth: 0.0,
                 far_depth,
@@ -135,6 +137,17 @@ impl View {
 /// Unit vector of any vector but zero; the largest component goes first, so that squares neither overflow nor vanish.
 fn unit(direction: DVec3) -> DVec3 {
     (direction / direction.abs().max_element()).normalize()
+}
+
+/// A direction that 64-bit floats can multiply by any matrix that casts.
+fn without_extremes(direction: DVec3) -> DVec3 {
+    let exponent = exponent_of(direction.abs().max_element());
+    if exponent.abs() < 500 {
+        return direction;
+    }
+    // Below the normal numbers twice, since the power itself must be one.
+    let scaled = direction * 2.0_f64.powi(-exponent.clamp(-1022, 1022));
+    scaled * 2.0_f64.powi(-exponent_of(scaled.abs().max_element()))
 }
 
 /// Light space from world space: looks from `eye` along the unit vector `axis`.

@@ -42,6 +42,7 @@ impl Floats for LightView {
             self.texel_world,
             self.depth_unit,
             self.warp_exponent,
+            self.guard_ndc,
         ]
         .into_iter()
     }
@@ -111,7 +112,7 @@ mod tests {
         assert_eq!(words_that_count::<Quad>(), 10);
         assert_eq!(words_that_count::<Corner>(), 10);
         assert_eq!(words_that_count::<CasterLight>(), 20);
-        assert_eq!(words_that_count::<LightView>(), 13);
+        assert_eq!(words_that_count::<LightView>(), 14);
         assert_eq!(words_that_count::<ReceiverView>(), 35);
         assert_eq!(words_that_count::<f32>(), 1);
         assert_eq!(non_finite(&[0.0, f32::NAN, f32::MAX, f32::INFINITY]), 2);

@@ -119,7 +119,11 @@ fn assert_consistent(plan: &FramePlan) {
     // Whatever does not run has its reason.
     let has_reason = |what: &[Omitted]| what.iter().any(|what| plan.reason(what).is_some());
     for stage in Stage::ALL {
-        let group = if Stage::DETECTION.contains(&stage) { Omitted::DetectionStages } else { Omitted::ExtrusionStages };
+        let group = match stage {
+            _ if Stage::PLACEMENT.contains(&stage) => Omitted::PlacementStages,
+            _ if Stage::DETECTION.contains(&stage) => Omitted::DetectionStages,
+            _ => Omitted::ExtrusionStages,
+        };
         assert_eq!(plan.has_stage(stage), !has_reason(&[group]), "{}", stage.name());
     }
     for pass in Pass::ALL {
@@ -140,7 +144,7 @@ fn smoothies_run_everything_in_two_passes() {
     let plan = Case::new(cube_scene()).good();
     assert_eq!(plan.stages, Stage::ALL);
     assert_eq!(plan.passes, [Pass::ShadowMap, Pass::SmoothieDepth, Pass::SmoothieAlpha]);
-    assert_eq!(plan.pipelines.len(), 11 + 1 + 2 + 2);
+    assert_eq!(plan.pipelines.len(), 14 + 1 + 2 + 2);
     assert_eq!(plan.reason(&Omitted::Pass(Pass::SmoothieBuffer)), Some(Reason::DeviceBlendsNoFloats));
     assert_eq!(plan.reason(&Omitted::Topology("floor".to_owned())), Some(Reason::ReceivesOnly));
     assert_eq!(plan.reason(&Omitted::InstanceTransforms), Some(Reason::NothingIsInstanced));
@@ -159,8 +163,11 @@ fn sizes_follow_the_counts() {
     assert_eq!(bytes(&plan, BufferKind::Incidences), Some(4), "never empty");
     assert_eq!(bytes(&plan, BufferKind::VertexEdges), Some((9 + 2 * 24) * 4));
     assert_eq!(bytes(&plan, BufferKind::Casters), Some(2 * 64));
-    assert_eq!(bytes(&plan, BufferKind::FaceItems), Some(2 * 12));
-    assert_eq!(bytes(&plan, BufferKind::EdgeItems), Some(2 * 12));
+    assert_eq!(bytes(&plan, BufferKind::CasterPlaces), Some(2 * 224));
+    for kind in [BufferKind::FaceBlocks, BufferKind::FaceItems, BufferKind::EdgeBlocks, BufferKind::EdgeItems] {
+        assert_eq!(bytes(&plan, kind), Some(2 * 12));
+    }
+    assert_eq!(bytes(&plan, BufferKind::ItemArgs), Some(2 * 12));
     assert_eq!(bytes(&plan, BufferKind::Lit), Some(2 * 2 * 4));
     assert_eq!(bytes(&plan, BufferKind::RecheckWords), Some(2 * 2 * 12));
     assert_eq!(bytes(&plan, BufferKind::RecheckArgs), Some(12));
@@ -168,8 +175,16 @@ fn sizes_follow_the_counts() {
     assert_eq!(bytes(&plan, BufferKind::Undecided), Some(24 * 8));
     assert_eq!(bytes(&plan, BufferKind::Silhouettes), Some(24 * 16));
     assert_eq!(bytes(&plan, BufferKind::RefineArgs), Some(2 * 12));
-    assert_eq!(bytes(&plan, BufferKind::DrawArgs), Some(2 * 16));
-    let counts = ViewCounts { face_items: 2, edge_items: 2, undecided: 24, silhouettes: 24, quads: 24, corners: 48 };
+    assert_eq!(bytes(&plan, BufferKind::DrawArgs), Some(3 * 16));
+    let counts = ViewCounts {
+        casters: 2,
+        face_blocks: 2,
+        edge_blocks: 2,
+        undecided: 24,
+        silhouettes: 24,
+        quads: 24,
+        corners: 48,
+    };
     assert_eq!(plan.pages[0].counts, counts);
     assert_eq!(plan.texture(TextureKind::ShadowDepth).map(|texture| texture.bytes), Some(1024 * 1024 * 4));
     assert_eq!(plan.texture(TextureKind::SmoothieAlpha).map(|texture| texture.bytes), Some(1024 * 1024 * 2));
@@ -209,9 +224,10 @@ fn a_shadow_map_needs_no_silhouettes() {
     let mut case = Case::new(cube_scene());
     case.settings.technique = Technique::ShadowMap;
     let plan = case.good();
-    assert!(plan.stages.is_empty());
+    assert_eq!(plan.stages, Stage::PLACEMENT);
     assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
-    assert_eq!(plan.pages[0].counts.edge_items, 0);
+    assert_eq!(plan.pages[0].counts.edge_blocks, 0);
+    assert_eq!(bytes(&plan, BufferKind::EdgeBlocks), Some(12), "never empty");
     assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::TechniqueHasNoSmoothies));
     assert_eq!(plan.reason(&Omitted::Pass(Pass::ShadowMap)), Some(Reason::HardwareDepthIsEnough));
     assert!(plan.buffer(BufferKind::Edges).is_none() && plan.buffer(BufferKind::FaceItems).is_some());
@@ -231,7 +247,8 @@ fn each_technique_has_the_maps_that_its_receivers_read() {
         for texture in plan.textures.iter().filter(|texture| !only_while_drawn.contains(&texture.kind)) {
             assert!(visibility.textures().contains(&texture.kind), "{name} fills {}", texture.kind.name());
         }
-        assert_eq!(plan.stages.is_empty(), name != "smoothies", "{name}");
+        let stages = if name == "smoothies" { &Stage::ALL } else { Stage::PLACEMENT };
+        assert_eq!(plan.stages, stages, "{name}");
     }
 }
 
@@ -292,7 +309,7 @@ fn silhouettes_alone_stop_at_the_list() {
     for technique in [case.settings.technique, Technique::ShadowMap] {
         case.settings.technique = technique;
         let plan = case.good();
-        assert_eq!(plan.stages, Stage::DETECTION);
+        assert_eq!(plan.stages, Stage::UP_TO_SILHOUETTES);
         assert!(plan.passes.is_empty() && plan.textures.is_empty());
         assert!(plan.buffer(BufferKind::Quads).is_none() && plan.buffer(BufferKind::VertexEdges).is_none());
         assert_eq!(plan.casting, [0, 1], "the list does not end with the frustum");
@@ -320,7 +337,8 @@ fn casters_that_cannot_cast_have_no_work() {
     ]);
     let plan = case.good();
     assert_eq!(plan.casting, [0, 4]);
-    assert_eq!((plan.pages[0].counts.face_items, plan.pages[0].counts.edge_items, plan.singular_casters), (2, 2, 1));
+    let ViewCounts { casters, face_blocks, edge_blocks, .. } = plan.pages[0].counts;
+    assert_eq!((casters, face_blocks, edge_blocks, plan.singular_casters), (5, 4, 4, 1));
     let reason = |name: &str| plan.reason(&Omitted::CasterWork(name.to_owned()));
     assert_eq!(reason("far"), Some(Reason::OutsideFrustum));
     assert_eq!(reason("flat"), Some(Reason::SingularMatrix));
@@ -347,7 +365,7 @@ fn an_orbiting_light_creates_nothing() {
     let before = case.good();
     case.scene.casters[1] = caster_at("sometimes", 0, DVec3::ZERO);
     let after = case.good();
-    assert_ne!(before.pages[0].counts.face_items, after.pages[0].counts.face_items);
+    assert_ne!(before.casting, after.casting);
     assert_eq!((before.buffers, before.textures, before.pipelines), (after.buffers, after.textures, after.pipelines));
 }
 
@@ -358,7 +376,8 @@ fn an_empty_scene_clears_the_map() {
         let plan = case.good();
         assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
         assert_eq!(plan.reason(&Omitted::SmoothiePasses), Some(Reason::NothingCasts));
-        assert_eq!(plan.pages[0].counts, ViewCounts::default());
+        let ViewCounts { face_blocks, edge_blocks, .. } = plan.pages[0].counts;
+        assert_eq!((face_blocks, edge_blocks), (0, 0));
         case.outputs = Outputs::Silhouettes;
         let plan = case.good();
         assert!(plan.stages.is_empty() && plan.buffers.is_empty());
@@ -450,8 +469,8 @@ fn a_mesh_in_pieces_fills_pages() {
     );
     assert!(plan.pages.iter().all(|page| page.casters == [PagedCaster { caster: 0, piece: 0 }]));
     let items = |items: fn(&ViewCounts) -> u32| plan.pages.iter().map(|page| items(&page.counts)).collect::<Vec<_>>();
-    assert_eq!(items(|counts| counts.face_items), [15_625, 0]);
-    assert_eq!(items(|counts| counts.edge_items), [15_625, 7_813]);
+    assert_eq!(items(|counts| counts.face_blocks), [15_625, 0]);
+    assert_eq!(items(|counts| counts.edge_blocks), [15_625, 7_813]);
     assert_eq!(items(|counts| counts.silhouettes), [1_000_000, 500_000]);
     assert_eq!(bytes(&plan, BufferKind::Lit), Some(15_625 * 8), "lit bits are those of the whole mesh");
     let print = plan.to_string();
@@ -466,12 +485,12 @@ fn many_meshes_fill_pages() {
     let casters = (0..80).map(|index| caster_at("cube", index % 40, DVec3::ZERO)).collect();
     let mut case = Case::new(SceneFacts { meshes, casters, ..cube_scene() });
     assert_eq!(case.good().pages.len(), 1);
-    // Corners need 12 edges x 2 ends x 56 bytes for each caster, and all caster records are on each page.
-    let limit = 14_000;
+    // Corners need 12 edges x 2 ends x 56 bytes for each caster, and places of all casters are in one buffer.
+    let limit = 18_000;
     case.device.max_storage_buffer_binding_size = limit;
     let plan = case.good();
     check_limits(&plan, limit);
-    assert_eq!(plan.pages.len(), 8);
+    assert_eq!(plan.pages.len(), 7);
     let mut cast: Vec<_> = plan.pages.iter().flat_map(|page| &page.casters).map(|here| here.caster).collect();
     cast.sort_unstable();
     assert_eq!(cast, (0..80).collect::<Vec<_>>(), "each caster is on one page");
@@ -517,7 +536,7 @@ fn the_print_shows_all_of_it() {
 #[test]
 fn a_plan_is_json() {
     let json = serde_json::to_value(Case::new(cube_scene()).good()).expect("plain data");
-    assert_eq!(json["stages"][0], "classify_faces");
+    assert_eq!(json["stages"][0], "place_casters");
     assert_eq!(json["passes"][2], "smoothie_alpha");
     assert_eq!(json["buffers"][0]["kind"], "positions");
     assert_eq!(json["settings"]["technique"]["smoothies"]["width"], "from-light-size");
