@@ -1,0 +1,68 @@
+//! What is wrong with a light.
+
+use glam::DVec3;
+
+/// What is wrong with a light.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LightError {
+    /// A number is infinite, NaN or too large.
+    #[error("the light's {field} is {value}: give a finite number that fits in 32 bits")]
+    NotFinite {
+        /// Name of the field.
+        field: &'static str,
+        /// What it holds.
+        value: f64,
+    },
+    /// A number that must not be negative is.
+    #[error("the light's {field} is {value}: give 0 or more")]
+    Negative {
+        /// Name of the field.
+        field: &'static str,
+        /// What it holds.
+        value: f64,
+    },
+    /// A number that must be positive is not, or is too small.
+    #[error("the light's {field} is {value}: give more than 0 (at least 1.2e-38, the smallest normal 32-bit number)")]
+    NotPositive {
+        /// Name of the field.
+        field: &'static str,
+        /// What it holds.
+        value: f64,
+    },
+    /// The spot's target is its position.
+    #[error("the spot stands on its target {target}: move the target to where the axis shall go")]
+    NoAxis {
+        /// Position and target.
+        target: DVec3,
+    },
+    /// The direction is zero.
+    #[error("the direction towards the light is zero: give any other vector, its length does not matter")]
+    NoDirection,
+    /// The cone is closed, or wider than a plane can show.
+    #[error("the cone angle is {radians} radians: give more than 0 and less than pi (3.14159), 1 is common")]
+    ConeAngle {
+        /// Full opening angle.
+        radians: f64,
+    },
+    /// The disk of a directional light covers half the sky.
+    #[error("the angular radius is {radians} radians: give 0 or more and less than pi / 2, the sun has 0.00465")]
+    AngularRadius {
+        /// Angular radius.
+        radians: f64,
+    },
+    /// One over the farthest depth is no normal 32-bit number.
+    #[error("the light's far is {far}: give at most 8.5e37, since shaders reckon with one over depth")]
+    TooFar {
+        /// Farthest depth.
+        far: f64,
+    },
+    /// There is no depth between near and far.
+    #[error("near is {near} and far is {far}: give a far that is clearly more than near")]
+    DepthRange {
+        /// Nearest depth.
+        near: f64,
+        /// Farthest depth.
+        far: f64,
+    },
+}

@@ -1,0 +1,61 @@
+use super::*;
+
+fn spot(change: impl FnOnce(&mut [f64; 4])) -> Result<(), LightError> {
+    let mut numbers = [1.0, 0.1, 0.5, 20.0];
+    change(&mut numbers);
+    let [cone_angle, radius, near, far] = numbers;
+    let (position, target) = (DVec3::new(0.0, 5.0, 0.0), DVec3::ZERO);
+    Light { kind: LightKind::Spot { position, target, cone_angle, radius, near, far }, color: [1.0; 3] }.validate()
+}
+
+fn sun(towards_light: DVec3, change: impl FnOnce(&mut [f64; 3])) -> Result<(), LightError> {
+    let mut numbers = [4.0, 6.0, 0.01];
+    change(&mut numbers);
+    let [half_extent, half_depth, angular_radius] = numbers;
+    let center = DVec3::ZERO;
+    let kind = LightKind::Directional { towards_light, center, half_extent, half_depth, angular_radius };
+    Light { kind, color: [1.0; 3] }.validate()
+}
+
+#[test]
+fn good_lights_pass() {
+    assert_eq!(spot(|_| ()), Ok(()));
+    assert_eq!(spot(|n| n[1] = 0.0), Ok(()));
+    assert_eq!(sun(DVec3::Y, |_| ()), Ok(()));
+    assert_eq!(sun(DVec3::splat(1e-200), |_| ()), Ok(()), "only the direction counts");
+}
+
+#[test]
+fn each_bad_field_has_its_error() {
+    assert_eq!(spot(|n| n[0] = 0.0), Err(LightError::ConeAngle { radians: 0.0 }));
+    assert_eq!(spot(|n| n[0] = PI), Err(LightError::ConeAngle { radians: PI }));
+    assert!(matches!(spot(|n| n[0] = f64::NAN), Err(LightError::ConeAngle { .. })));
+    assert_eq!(spot(|n| n[1] = -1.0), Err(LightError::Negative { field: "radius", value: -1.0 }));
+    assert_eq!(spot(|n| n[2] = 0.0), Err(LightError::NotPositive { field: "near", value: 0.0 }));
+    assert_eq!(spot(|n| n[2] = 1e-50), Err(LightError::NotPositive { field: "near", value: 1e-50 }));
+    assert_eq!(spot(|n| n[3] = 0.5), Err(LightError::DepthRange { near: 0.5, far: 0.5 }));
+    assert_eq!(spot(|n| n[3] = 0.5 + 1e-12), Err(LightError::DepthRange { near: 0.5, far: 0.5 + 1e-12 }));
+    assert_eq!(spot(|n| n[3] = 8.5e37), Ok(()));
+    assert_eq!(spot(|n| n[3] = 1e38), Err(LightError::TooFar { far: 1e38 }));
+    assert_eq!(spot(|n| n[3] = 1e40), Err(LightError::NotFinite { field: "far", value: 1e40 }));
+    assert_eq!(sun(DVec3::ZERO, |_| ()), Err(LightError::NoDirection));
+    assert!(matches!(sun(DVec3::new(0.0, f64::INFINITY, 0.0), |_| ()), Err(LightError::NotFinite { .. })));
+    assert_eq!(sun(DVec3::Y, |n| n[0] = 0.0), Err(LightError::NotPositive { field: "half extent", value: 0.0 }));
+    assert_eq!(sun(DVec3::Y, |n| n[1] = -2.0), Err(LightError::NotPositive { field: "half depth", value: -2.0 }));
+    assert_eq!(sun(DVec3::Y, |n| n[2] = FRAC_PI_2), Err(LightError::AngularRadius { radians: FRAC_PI_2 }));
+}
+
+#[test]
+fn a_spot_on_its_target_has_no_axis() {
+    let target = DVec3::ONE;
+    let kind = LightKind::Spot { position: target, target, cone_angle: 1.0, radius: 0.0, near: 0.1, far: 1.0 };
+    assert_eq!(Light { kind, color: [1.0; 3] }.validate(), Err(LightError::NoAxis { target }));
+}
+
+#[test]
+fn colors_must_be_light() {
+    let kind =
+        LightKind::Spot { position: DVec3::ZERO, target: DVec3::X, cone_angle: 1.0, radius: 0.0, near: 0.1, far: 1.0 };
+    let error = Light { kind, color: [1.0, -0.5, 1.0] }.validate();
+    assert_eq!(error, Err(LightError::Negative { field: "color", value: -0.5 }));
+}
