@@ -26,8 +26,9 @@ impl FrameUniforms {
     ///
     /// # Exposure
     ///
-    /// A white surface at a spot's target that faces the spot has the radiance `Light::color`, and one that faces a
-    /// directional light has it anywhere; 1 is white in a picture. So a scene is equally bright at any size.
+    /// A white surface at a spot's target that faces the spot has the radiance `Light::color`, so has one that faces a point
+    /// light at half its farthest depth, and one that faces a directional light has it anywhere; 1 is white in a picture.
+    /// So a scene is equally bright at any size.
     pub fn new(scene: &Scene, camera_local: &Camera) -> Self {
         Self {
             eye_clip_from_local: eye_clip_from_local(camera_local, scene.aspect()).as_mat4().to_cols_array(),
@@ -45,6 +46,12 @@ impl FrameUniforms {
                 light_local: extended(position, 1.0),
                 light_axis_local: extended((target - position).normalize_or_zero(), (0.5 * cone_angle).cos()),
                 light_color: [red, green, blue, position.distance_squared(target) as f32],
+                ..*self
+            },
+            LightKind::Point { position, far, .. } => Self {
+                light_local: extended(position, 1.0),
+                light_axis_local: extended(DVec3::NEG_Y, NO_CONE),
+                light_color: [red, green, blue, (0.5 * far).powi(2) as f32],
                 ..*self
             },
             LightKind::Directional { towards_light, .. } => {

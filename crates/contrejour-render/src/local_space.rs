@@ -71,6 +71,12 @@ impl LocalSpace {
                 *near = self.length(*near);
                 *far = self.length(*far);
             }
+            LightKind::Point { position, radius, near, far } => {
+                *position = self.point(*position);
+                *radius = self.length(*radius);
+                *near = self.length(*near);
+                *far = self.length(*far);
+            }
             LightKind::Directional { center, half_extent, half_depth, .. } => {
                 *center = self.point(*center);
                 *half_extent = self.length(*half_extent);

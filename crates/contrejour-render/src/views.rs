@@ -86,7 +86,7 @@ impl Renderer {
     /// Linear depth from clip z, as the visibility function of two textures does it.
     fn linear_from_hardware(&self, ndc_z: &[f32]) -> Vec<f32> {
         let (near, far) = self.depth_range();
-        let is_perspective = matches!(self.light_local.kind, LightKind::Spot { .. });
+        let is_perspective = matches!(self.light_local.kind, LightKind::Spot { .. } | LightKind::Point { .. });
         let linear =
             |z: f64| if is_perspective { near * far / (far + (near - far) * z) } else { near + (far - near) * z };
         ndc_z.iter().map(|&z| if z < 1.0 { linear(z.into()) as f32 } else { far as f32 }).collect()
@@ -95,7 +95,7 @@ impl Renderer {
     /// Nearest and farthest depth of the light's view, in local units.
     fn depth_range(&self) -> (f64, f64) {
         match self.light_local.kind {
-            LightKind::Spot { near, far, .. } => (near, far),
+            LightKind::Spot { near, far, .. } | LightKind::Point { near, far, .. } => (near, far),
             LightKind::Directional { half_depth, .. } => (0.0, 2.0 * half_depth),
         }
     }

@@ -7,9 +7,9 @@ use glam::DQuat;
 
 /// The light at one of `frames` even steps of a full turn about the vertical axis through what it aims at.
 ///
-/// A spot's position turns about its target; the direction towards a directional light turns and its centre stays.
-/// The turn is counter-clockwise as seen from above. Frame 0, and every frame of an orbit of no frames, is the light
-/// itself; frames past the last go on turning.
+/// A spot's position turns about its target, a point light's, which aims at nothing, about the origin; the direction
+/// towards a directional light turns and its centre stays. The turn is counter-clockwise as seen from above. Frame 0, and every frame of an
+/// orbit of no frames, is the light itself; frames past the last go on turning.
 pub fn orbit(light: &Light, frame: u32, frames: u32) -> Light {
     let step = frame.checked_rem(frames).unwrap_or(0);
     if step == 0 {
@@ -19,6 +19,7 @@ pub fn orbit(light: &Light, frame: u32, frames: u32) -> Light {
     let mut turned = *light;
     match &mut turned.kind {
         LightKind::Spot { position, target, .. } => *position = *target + turn * (*position - *target),
+        LightKind::Point { position, .. } => *position = turn * *position,
         LightKind::Directional { towards_light, .. } => *towards_light = turn * *towards_light,
     }
     turned
@@ -43,7 +44,7 @@ mod tests {
 
     fn position(light: &Light) -> DVec3 {
         match light.kind {
-            LightKind::Spot { position, .. } => position,
+            LightKind::Spot { position, .. } | LightKind::Point { position, .. } => position,
             LightKind::Directional { towards_light, .. } => towards_light,
         }
     }
@@ -59,6 +60,13 @@ mod tests {
     fn a_quarter_turn_of_a_spot_goes_round_its_target() {
         let quarter = position(&orbit(&spot(), 2, 8));
         assert!((quarter - DVec3::new(1.0, 4.0, -3.0)).length() < 1e-12, "{quarter}");
+    }
+
+    #[test]
+    fn a_lamp_goes_round_the_origin() {
+        let kind = LightKind::Point { position: DVec3::new(2.0, 3.0, 0.0), radius: 0.1, near: 0.1, far: 10.0 };
+        let quarter = position(&orbit(&Light { kind, color: [1.0; 3] }, 1, 4));
+        assert!((quarter - DVec3::new(0.0, 3.0, -2.0)).length() < 1e-12, "{quarter}");
     }
 
     #[test]

@@ -45,7 +45,8 @@ pub enum LightShape {
 }
 
 impl LightShape {
-    /// The light that the shadow techniques mean: a disk parallel to the light's image plane.
+    /// The light that the shadow techniques mean: a disk parallel to the light's image plane, or the sphere of a point
+    /// light, whose views have disks in its stead.
     ///
     /// # Errors
     ///
@@ -56,6 +57,7 @@ impl LightShape {
             LightKind::Spot { position, target, radius, .. } => {
                 Self::Disk { center: position, normal: target - position, radius }
             }
+            LightKind::Point { position, radius, .. } => Self::Sphere { center: position, radius },
             LightKind::Directional { towards_light, angular_radius, .. } => Self::Sun { towards_light, angular_radius },
         })
     }

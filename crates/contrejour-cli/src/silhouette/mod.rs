@@ -68,7 +68,7 @@ fn light(arguments: &LightArguments) -> Result<Light, Failure> {
 /// Position and 1, or direction towards the light and 0.
 fn homogeneous(light: &Light) -> DVec4 {
     match light.kind {
-        LightKind::Spot { position, .. } => position.extend(1.0),
+        LightKind::Spot { position, .. } | LightKind::Point { position, .. } => position.extend(1.0),
         LightKind::Directional { towards_light, .. } => towards_light.extend(0.0),
     }
 }

@@ -113,7 +113,7 @@ impl Subject {
     /// Size of the light as its kind means it: radius in metres, or angular radius in radians.
     pub fn light_size(&self) -> f64 {
         match self.scene.light.kind {
-            LightKind::Spot { radius, .. } => radius,
+            LightKind::Spot { radius, .. } | LightKind::Point { radius, .. } => radius,
             LightKind::Directional { angular_radius, .. } => angular_radius,
         }
     }

@@ -49,7 +49,7 @@ pub(super) fn both(middle: DVec3, radius: f64) -> [(&'static str, Light); 2] {
 pub(super) fn with_another_depth(light: &Light) -> Light {
     let mut other = *light;
     match &mut other.kind {
-        LightKind::Spot { far, .. } => *far *= 1.0625,
+        LightKind::Spot { far, .. } | LightKind::Point { far, .. } => *far *= 1.0625,
         LightKind::Directional { half_depth, .. } => *half_depth *= 1.0625,
     }
     other

@@ -54,6 +54,7 @@ fn penumbra_share(height: f64, light: &Light) -> f64 {
     let half_penumbra = view.light_size * (view.q_of_depth(LAMP) - view.q_of_depth(blocker));
     let plate = match light.kind {
         LightKind::Spot { cone_angle, .. } => PLATE / (blocker * (0.5 * cone_angle).tan()),
+        LightKind::Point { .. } => PLATE / blocker,
         LightKind::Directional { half_extent, .. } => PLATE / half_extent,
     };
     half_penumbra / plate.min(1.0)

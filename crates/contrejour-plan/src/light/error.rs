@@ -45,6 +45,12 @@ pub enum LightError {
         /// Full opening angle.
         radians: f64,
     },
+    /// The views of a point light are all guard band, or would have less than none.
+    #[error("the guard is {guard_ndc} of half a map: give 0 or more and less than 1, as guard_ndc does")]
+    Guard {
+        /// Width of the guard band, NDC.
+        guard_ndc: f64,
+    },
     /// The disk of a directional light covers half the sky.
     #[error("the angular radius is {radians} radians: give 0 or more and less than pi / 2, the sun has 0.00465")]
     AngularRadius {

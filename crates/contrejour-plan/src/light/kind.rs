@@ -23,6 +23,21 @@ pub enum LightKind {
         /// Farthest depth that casts and receives, world units. Range: more than `near`, up to 8.5e37.
         far: f64,
     },
+    /// Light from a point or a small sphere in all directions. Six views look at it, along the axes of world space; see
+    /// [`CubeFace`](crate::CubeFace).
+    Point {
+        /// Position, world space.
+        position: DVec3,
+        /// Radius of the sphere that shines, world units. Range: 0 and up. For each view it is a disk parallel to the
+        /// image plane.
+        radius: f64,
+        /// Nearest depth along the axis of a view from which on all casts, world units. Range: more than 0. What is
+        /// nearer by less than the guard of the views casts too; see [`views_with_guard`](crate::views_with_guard).
+        near: f64,
+        /// Farthest depth along the axis of a view that casts and receives, world units: half the side of the cube that
+        /// is shadowed around the light. Range: more than `near`, up to 8.5e37.
+        far: f64,
+    },
     /// Parallel light, like a sun.
     Directional {
         /// Direction from the scene towards the light, world space; any length but zero.

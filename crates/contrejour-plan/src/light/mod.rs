@@ -6,6 +6,7 @@ mod validate;
 
 pub use error::LightError;
 pub use kind::LightKind;
+pub(crate) use validate::is_normal;
 
 /// A light that casts a shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +21,7 @@ impl Light {
     /// Whether the light is a point or a perfectly parallel sun, whose shadows are hard.
     pub fn has_no_size(&self) -> bool {
         match self.kind {
-            LightKind::Spot { radius, .. } => radius == 0.0,
+            LightKind::Spot { radius, .. } | LightKind::Point { radius, .. } => radius == 0.0,
             LightKind::Directional { angular_radius, .. } => angular_radius == 0.0,
         }
     }

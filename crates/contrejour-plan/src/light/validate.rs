@@ -28,14 +28,12 @@ impl Light {
                 }
                 not_negative("radius", radius)?;
                 not_negative("radius over the tangent of half the cone", radius / (cone_angle / 2.0).tan())?;
-                positive("near", near)?;
-                positive("far", far)?;
-                // Devices may take smaller numbers for zero, and one over that is infinite.
-                if !is_normal(far.recip()) {
-                    return Err(LightError::TooFar { far });
-                }
-                // Compared as the shaders get them, so that `near < far` holds there too.
-                if (near as f32) < (far as f32) { Ok(()) } else { Err(LightError::DepthRange { near, far }) }
+                depth_range(near, far)
+            }
+            LightKind::Point { position, radius, near, far } => {
+                finite_point("position", position)?;
+                not_negative("radius", radius)?;
+                depth_range(near, far)
             }
             LightKind::Directional { towards_light, center, half_extent, half_depth, angular_radius } => {
                 for value in towards_light.to_array() {
@@ -59,7 +57,20 @@ impl Light {
     }
 }
 
-fn is_normal(value: f64) -> bool {
+/// Depths of a perspective view.
+fn depth_range(near: f64, far: f64) -> Result<(), LightError> {
+    positive("near", near)?;
+    positive("far", far)?;
+    // Devices may take smaller numbers for zero, and one over that is infinite.
+    if !is_normal(far.recip()) {
+        return Err(LightError::TooFar { far });
+    }
+    // Compared as the shaders get them, so that `near < far` holds there too.
+    if (near as f32) < (far as f32) { Ok(()) } else { Err(LightError::DepthRange { near, far }) }
+}
+
+/// Whether it is a normal number of 32 bits.
+pub(crate) fn is_normal(value: f64) -> bool {
     (value as f32).is_normal()
 }
 

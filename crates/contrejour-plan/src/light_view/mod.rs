@@ -2,7 +2,10 @@
 
 mod caster_light;
 mod caster_place;
+mod cube_face;
+mod cube_views;
 mod frustum;
+mod guard;
 mod object_light;
 mod power_of_two;
 mod records;
@@ -10,7 +13,9 @@ mod view;
 
 pub use caster_light::{NearOne, caster_light};
 pub use caster_place::caster_place;
+pub use cube_face::CubeFace;
 pub use frustum::ObjectBox;
+pub use guard::{MAX_GUARD_NDC, guard_ndc};
 pub use object_light::{ObjectLight, object_light};
 pub use records::ViewCounts;
-pub use view::{Projection, View, views};
+pub use view::{Projection, View, views, views_with_guard};

@@ -5,6 +5,7 @@ use glam::dcamera::rh::view::look_to_mat4;
 use glam::{DMat4, DVec3, DVec4};
 
 use super::power_of_two::exponent_of;
+use super::cube_views::cube_views;
 use crate::{Light, LightError, LightKind};
 
 /// Directions whose y is more than this look up or down: the image plane's up is then an axis other than y.
@@ -43,14 +44,33 @@ pub struct View {
     pub light_size: f64,
 }
 
-/// The views of a light: one for a spot and for a directional light.
+/// The views of a light: one for a spot and for a directional light, six for a point light, in the order of
+/// [`CubeFace::ALL`](crate::CubeFace::ALL). Those end where their neighbours begin: look-ups at their borders need
+/// [`views_with_guard`].
 ///
 /// # Errors
 ///
 /// The light has a field that is out of its range.
 pub fn views(light: &Light) -> Result<Vec<View>, LightError> {
+    views_with_guard(light, 0.0)
+}
+
+/// The views of a light, where a point light's are widened so that a band of `guard_ndc` along each side of the map shows
+/// what its neighbours show. Unit: NDC of the widened view. Range: 0 and up, less than 1;
+/// [`guard_ndc`](crate::guard_ndc()) is what shadow settings ask for. Lights of a single view have no neighbours and stay
+/// as they are.
+///
+/// The square of a face is then `1 - guard_ndc` of its map, and its nearest depth as much of the light's `near`.
+///
+/// # Errors
+///
+/// The light has a field that is out of its range, or the guard leaves nothing of a map.
+pub fn views_with_guard(light: &Light, guard_ndc: f64) -> Result<Vec<View>, LightError> {
     light.validate()?;
     let view = match light.kind {
+        LightKind::Point { position, radius, near, far } => {
+            return cube_views(position, radius, [near, far], guard_ndc);
+        }
         LightKind::Spot { position, target, cone_angle, radius, near, far } => {
             let axis_world = unit(target - position);
             let half_side = (cone_angle / 2.0).tan();
@@ -135,7 +155,7 @@ impl View {
 }
 
 /// Unit vector of any vector but zero; the largest component goes first, so that squares neither overflow nor vanish.
-fn unit(direction: DVec3) -> DVec3 {
+pub(super) fn unit(direction: DVec3) -> DVec3 {
     (direction / direction.abs().max_element()).normalize()
 }
 
@@ -151,7 +171,7 @@ fn without_extremes(direction: DVec3) -> DVec3 {
 }
 
 /// Light space from world space: looks from `eye` along the unit vector `axis`.
-fn look_along(eye: DVec3, axis: DVec3) -> DMat4 {
+pub(super) fn look_along(eye: DVec3, axis: DVec3) -> DMat4 {
     let up = if axis.y.abs() > STEEP { DVec3::Z } else { DVec3::Y };
     look_to_mat4(eye, axis, up)
 }

@@ -8,7 +8,7 @@ use glam::DVec3;
 const HAIR: f64 = 1.0 / 262_144.0;
 
 /// The light itself in even frames, and in odd ones the light moved sideways by a hair: by 2^-18 of its distance from its
-/// target, or turned by 2^-18 radians.
+/// target, by 2^-18 of its farthest depth where it has no target, or turned by 2^-18 radians.
 ///
 /// Shadows that are asked for the same light again have nothing to do. Frames of a rocked light do all the work of a
 /// light that moves, and all do the same, so they are what a run time is measured with.
@@ -19,6 +19,7 @@ pub fn rocked(light: &Light, frame: usize) -> Light {
     }
     match &mut rocked.kind {
         LightKind::Spot { position, target, .. } => *position += sideways(*position - *target),
+        LightKind::Point { position, far, .. } => position.x += HAIR * *far,
         LightKind::Directional { towards_light, .. } => *towards_light += sideways(*towards_light),
     }
     rocked
@@ -43,6 +44,10 @@ mod tests {
         Light { kind, color: [1.0; 3] }
     }
 
+    fn lamp(position: DVec3) -> Light {
+        Light { kind: LightKind::Point { position, radius: 0.1, near: 0.1, far: 9.0 }, color: [1.0; 3] }
+    }
+
     fn sun(towards_light: DVec3) -> Light {
         let kind = LightKind::Directional {
             towards_light,
@@ -59,7 +64,8 @@ mod tests {
         let record =
             |light: &Light| contrejour_plan::views(light).expect("a good light")[0].receiver_view(&Default::default());
         for direction in [DVec3::X, DVec3::Y, -DVec3::Z, DVec3::new(0.3, 5.0, -2.0), DVec3::splat(1e-200)] {
-            for light in [spot(4.0 * direction.normalize_or(DVec3::ONE)), sun(direction)] {
+            let position = 4.0 * direction.normalize_or(DVec3::ONE);
+            for light in [spot(position), lamp(position), sun(direction)] {
                 assert_eq!(rocked(&light, 0), light);
                 assert_eq!(rocked(&light, 6), light);
                 assert_ne!(record(&rocked(&light, 1)).light_world, record(&light).light_world, "{light:?}");

@@ -17,6 +17,13 @@ fn sun(towards_light: DVec3, change: impl FnOnce(&mut [f64; 3])) -> Result<(), L
     Light { kind, color: [1.0; 3] }.validate()
 }
 
+fn point(change: impl FnOnce(&mut [f64; 3])) -> Result<(), LightError> {
+    let mut numbers = [0.1, 0.5, 20.0];
+    change(&mut numbers);
+    let [radius, near, far] = numbers;
+    Light { kind: LightKind::Point { position: DVec3::ONE, radius, near, far }, color: [1.0; 3] }.validate()
+}
+
 #[test]
 fn good_lights_pass() {
     assert_eq!(spot(|_| ()), Ok(()));
@@ -58,4 +65,20 @@ fn colors_must_be_light() {
         LightKind::Spot { position: DVec3::ZERO, target: DVec3::X, cone_angle: 1.0, radius: 0.0, near: 0.1, far: 1.0 };
     let error = Light { kind, color: [1.0, -0.5, 1.0] }.validate();
     assert_eq!(error, Err(LightError::Negative { field: "color", value: -0.5 }));
+}
+
+#[test]
+fn each_bad_field_of_a_point_light_has_its_error() {
+    assert_eq!(point(|_| ()), Ok(()));
+    assert_eq!(point(|n| n[0] = 0.0), Ok(()));
+    assert_eq!(point(|n| n[0] = -1.0), Err(LightError::Negative { field: "radius", value: -1.0 }));
+    assert_eq!(point(|n| n[1] = 0.0), Err(LightError::NotPositive { field: "near", value: 0.0 }));
+    assert_eq!(point(|n| n[2] = 0.5), Err(LightError::DepthRange { near: 0.5, far: 0.5 }));
+    assert_eq!(point(|n| n[2] = 1e38), Err(LightError::TooFar { far: 1e38 }));
+    assert!(matches!(point(|n| n[2] = f64::NAN), Err(LightError::NotFinite { field: "far", .. })));
+
+    let position = DVec3::new(0.0, f64::INFINITY, 0.0);
+    let kind = LightKind::Point { position, radius: 0.0, near: 0.5, far: 20.0 };
+    let error = Light { kind, color: [1.0; 3] }.validate();
+    assert_eq!(error, Err(LightError::NotFinite { field: "position", value: f64::INFINITY }));
 }

@@ -109,6 +109,7 @@ mod tests {
         let torus = LoneMesh::torus(1000).expect("a torus");
         let of = |light: &Light| match light.kind {
             LightKind::Spot { position, target, .. } => position - target,
+            LightKind::Point { position, .. } => position,
             LightKind::Directional { towards_light, .. } => towards_light,
         };
         let distance = of(&torus.scene.light).length();

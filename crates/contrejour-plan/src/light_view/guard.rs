@@ -1,0 +1,102 @@
+//! How much of its neighbours a view must see.
+
+use core::f64::consts::SQRT_2;
+
+use crate::{Light, LightKind, ShadowSettings, SmoothieWidth, Technique, VarianceSoftness};
+
+/// The widest guard band: half of the map's half side. A wider one would leave too few texels to what is looked at;
+/// soft edges that are wider still are cut where they cross a border.
+pub const MAX_GUARD_NDC: f64 = 0.5;
+
+/// Texels for the four nearest ones and for rounding.
+const NEAREST_TEXELS: f64 = 2.0;
+
+/// The pyramid's Gaussian has a visible part up to so many times the radius of the disk that it stands for.
+const BLUR_REACH: f64 = 2.0;
+
+/// Width of the guard band that the views of a light need, so that soft edges and filters miss nothing where one view
+/// ends and its neighbour begins. Unit: NDC of the widened view. Range: 0 to [`MAX_GUARD_NDC`].
+///
+/// It holds the widest smoothie, or the widest filter, that the technique can have with the light's size, and
+/// the texels by which look-ups reach beyond their place. 0 for lights of a single view.
+pub fn guard_ndc(light: &Light, settings: &ShadowSettings) -> f64 {
+    match light.kind {
+        // The penumbra of a caster at the nearest depth on a receiver infinitely far away, R / (near tan(fov / 2)): the
+        // guard makes near and the tangent's inverse smaller alike.
+        LightKind::Point { radius, near, .. } => guard_of_size(radius / near, settings),
+        LightKind::Spot { .. } | LightKind::Directional { .. } => 0.0,
+    }
+}
+
+/// The guard band where the light makes half penumbras of up to `penumbra_ndc`.
+pub(super) fn guard_of_size(penumbra_ndc: f64, settings: &ShadowSettings) -> f64 {
+    let mut texels = NEAREST_TEXELS;
+    let mut reach_ndc = 0.0;
+    match &settings.technique {
+        Technique::ShadowMap | Technique::Pcf => {}
+        // The kernel's middle is anywhere on a texel.
+        Technique::GaussianPcf(gaussian) => texels += 0.5 * f64::from(gaussian.kernel.texels()),
+        Technique::BicubicPcf => texels += 1.0,
+        Technique::Pcss(_) => reach_ndc = penumbra_ndc,
+        Technique::Variance(variance) => match variance.softness {
+            VarianceSoftness::Texels(blur) => texels += BLUR_REACH * f64::from(blur),
+            VarianceSoftness::FromLightSize { .. } => reach_ndc = BLUR_REACH * penumbra_ndc,
+        },
+        Technique::Smoothies(smoothies) => {
+            let width = match smoothies.width {
+                SmoothieWidth::Ndc(width) => width.into(),
+                SmoothieWidth::FromLightSize => penumbra_ndc,
+            };
+            reach_ndc = width.min(smoothies.width_max_ndc.into());
+        }
+    }
+    // The normal offset moves a look-up by so many footprints, each of which spans sqrt(2) texels at most where the view
+    // is seen at 45 degrees; the depth that it changes moves it by as much again.
+    texels += 2.0 * SQRT_2 * f64::from(settings.bias.normal_texels);
+    (reach_ndc + texels * 2.0 / f64::from(settings.map_size)).min(MAX_GUARD_NDC)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{SmoothieSettings, VarianceSettings, views_with_guard};
+    use glam::DVec3;
+
+    fn lamp(radius: f64) -> Light {
+        let kind = LightKind::Point { position: DVec3::ZERO, radius, near: 1.0, far: 20.0 };
+        Light { kind, color: [1.0; 3] }
+    }
+
+    fn settings(technique: Technique) -> ShadowSettings {
+        ShadowSettings { technique, map_size: 1024, ..ShadowSettings::default() }
+    }
+
+    #[test]
+    fn the_widest_smoothie_fits_with_texels_to_spare() {
+        for radius in [0.0, 0.02, 0.1, 0.3] {
+            for width in [SmoothieWidth::FromLightSize, SmoothieWidth::Ndc(0.08)] {
+                let smoothies = SmoothieSettings { width, ..SmoothieSettings::DEFAULT };
+                let settings = settings(Technique::Smoothies(smoothies));
+                let guard = guard_ndc(&lamp(radius), &settings);
+                for view in views_with_guard(&lamp(radius), guard).expect("a good lamp") {
+                    let widest = view.widest_smoothie_ndc(&smoothies, settings.map_size);
+                    let room_texels = (guard - widest) * 512.0;
+                    assert!((1.0..8.0).contains(&room_texels), "{radius}, {width:?}: {room_texels}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn guards_follow_the_technique_and_end() {
+        let of = |technique, radius| guard_ndc(&lamp(radius), &settings(technique));
+        assert_eq!(of(Technique::Pcf, 0.0), of(Technique::Pcf, 0.3), "the light's size does not matter");
+        assert!(of(Technique::BicubicPcf, 0.0) > of(Technique::ShadowMap, 0.0));
+        let wide = VarianceSettings { softness: VarianceSoftness::Texels(16.0), ..VarianceSettings::VSM };
+        assert!(of(Technique::Variance(wide), 0.0) > of(Technique::Variance(VarianceSettings::VSM), 0.0));
+        assert!(of(Technique::Variance(VarianceSettings::VSM_PCSS), 0.1) > 0.2);
+        assert_eq!(of(Technique::Smoothies(SmoothieSettings::DEFAULT), 40.0), MAX_GUARD_NDC);
+        let tiny = ShadowSettings { map_size: 1, ..ShadowSettings::default() };
+        assert_eq!(guard_ndc(&lamp(0.0), &tiny), MAX_GUARD_NDC);
+    }
+}
