@@ -54,7 +54,7 @@ impl FrameUniforms {
                 light_color: [red, green, blue, (0.5 * far).powi(2) as f32],
                 ..*self
             },
-            LightKind::Directional { towards_light, .. } => {
+            LightKind::Directional { towards_light, .. } | LightKind::Cascaded { towards_light, .. } => {
                 let towards_light = unit(towards_light);
                 Self {
                     light_local: extended(towards_light, 0.0),

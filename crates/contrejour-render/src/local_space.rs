@@ -82,6 +82,8 @@ impl LocalSpace {
                 *half_extent = self.length(*half_extent);
                 *half_depth = self.length(*half_depth);
             }
+            // Cascades are told in shares of what the eye sees.
+            LightKind::Cascaded { .. } => {}
         }
         local
     }

@@ -97,6 +97,8 @@ impl Renderer {
         match self.light_local.kind {
             LightKind::Spot { near, far, .. } | LightKind::Point { near, far, .. } => (near, far),
             LightKind::Directional { half_depth, .. } => (0.0, 2.0 * half_depth),
+            // The renderer has no eye to give to the library, which refuses the light before there is a map.
+            LightKind::Cascaded { .. } => (0.0, 1.0),
         }
     }
 

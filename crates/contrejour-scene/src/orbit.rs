@@ -20,7 +20,9 @@ pub fn orbit(light: &Light, frame: u32, frames: u32) -> Light {
     match &mut turned.kind {
         LightKind::Spot { position, target, .. } => *position = *target + turn * (*position - *target),
         LightKind::Point { position, .. } => *position = turn * *position,
-        LightKind::Directional { towards_light, .. } => *towards_light = turn * *towards_light,
+        LightKind::Directional { towards_light, .. } | LightKind::Cascaded { towards_light, .. } => {
+            *towards_light = turn * *towards_light;
+        }
     }
     turned
 }
@@ -45,7 +47,7 @@ mod tests {
     fn position(light: &Light) -> DVec3 {
         match light.kind {
             LightKind::Spot { position, .. } | LightKind::Point { position, .. } => position,
-            LightKind::Directional { towards_light, .. } => towards_light,
+            LightKind::Directional { towards_light, .. } | LightKind::Cascaded { towards_light, .. } => towards_light,
         }
     }
 

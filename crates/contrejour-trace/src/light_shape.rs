@@ -58,7 +58,8 @@ impl LightShape {
                 Self::Disk { center: position, normal: target - position, radius }
             }
             LightKind::Point { position, radius, .. } => Self::Sphere { center: position, radius },
-            LightKind::Directional { towards_light, angular_radius, .. } => Self::Sun { towards_light, angular_radius },
+            LightKind::Directional { towards_light, angular_radius, .. }
+            | LightKind::Cascaded { towards_light, angular_radius, .. } => Self::Sun { towards_light, angular_radius },
         })
     }
 

@@ -69,7 +69,9 @@ fn light(arguments: &LightArguments) -> Result<Light, Failure> {
 fn homogeneous(light: &Light) -> DVec4 {
     match light.kind {
         LightKind::Spot { position, .. } | LightKind::Point { position, .. } => position.extend(1.0),
-        LightKind::Directional { towards_light, .. } => towards_light.extend(0.0),
+        LightKind::Directional { towards_light, .. } | LightKind::Cascaded { towards_light, .. } => {
+            towards_light.extend(0.0)
+        }
     }
 }
 

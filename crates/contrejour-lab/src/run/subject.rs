@@ -114,7 +114,9 @@ impl Subject {
     pub fn light_size(&self) -> f64 {
         match self.scene.light.kind {
             LightKind::Spot { radius, .. } | LightKind::Point { radius, .. } => radius,
-            LightKind::Directional { angular_radius, .. } => angular_radius,
+            LightKind::Directional { angular_radius, .. } | LightKind::Cascaded { angular_radius, .. } => {
+                angular_radius
+            }
         }
     }
 

@@ -51,6 +51,7 @@ pub(super) fn with_another_depth(light: &Light) -> Light {
     match &mut other.kind {
         LightKind::Spot { far, .. } | LightKind::Point { far, .. } => *far *= 1.0625,
         LightKind::Directional { half_depth, .. } => *half_depth *= 1.0625,
+        LightKind::Cascaded { cascades, .. } => cascades.caster_margin *= 1.0625,
     }
     other
 }

@@ -56,6 +56,8 @@ fn penumbra_share(height: f64, light: &Light) -> f64 {
         LightKind::Spot { cone_angle, .. } => PLATE / (blocker * (0.5 * cone_angle).tan()),
         LightKind::Point { .. } => PLATE / blocker,
         LightKind::Directional { half_extent, .. } => PLATE / half_extent,
+        // Without an eye it has no views above.
+        LightKind::Cascaded { .. } => return 0.0,
     };
     half_penumbra / plate.min(1.0)
 }

@@ -51,6 +51,25 @@ pub enum LightError {
         /// Width of the guard band, NDC.
         guard_ndc: f64,
     },
+    /// The maps of a cascaded light follow an eye, and none is given.
+    #[error("the views of a cascaded light depend on the eye: ask cascade_views for them")]
+    NeedsEye,
+    /// There are no cascades, or too many.
+    #[error("there are {count} cascades: give 1 to 8, 4 is common")]
+    CascadeCount {
+        /// How many.
+        count: u32,
+    },
+    /// A share or a multiple of the cascades is not in its range.
+    #[error("the cascades' {field} is {value}: give 0 to {most}")]
+    CascadeShare {
+        /// Name of the field.
+        field: &'static str,
+        /// What it holds.
+        value: f64,
+        /// The most that it may hold.
+        most: f64,
+    },
     /// The disk of a directional light covers half the sky.
     #[error("the angular radius is {radians} radians: give 0 or more and less than pi / 2, the sun has 0.00465")]
     AngularRadius {

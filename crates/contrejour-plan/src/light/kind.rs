@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::CascadeSettings;
+
 /// Shape of a light.
 ///
 /// Every number must be finite and fit in an `f32`, except for the length of `towards_light`.
@@ -51,5 +53,15 @@ pub enum LightKind {
         half_depth: f64,
         /// Angular radius of the disk that shines (the sun's is 0.00465). Range: 0 and up, less than pi / 2.
         angular_radius: f64,
+    },
+    /// Parallel light, like a sun, on all that one eye sees: several maps follow the eye, finer ones near it. Its views
+    /// come from [`cascade_views`](crate::cascade_views), which asks for the eye.
+    Cascaded {
+        /// Direction from the scene towards the light, world space; any length but zero.
+        towards_light: DVec3,
+        /// Angular radius of the disk that shines (the sun's is 0.00465). Range: 0 and up, less than pi / 2.
+        angular_radius: f64,
+        /// How many maps there are, and which part of the eye's view each has.
+        cascades: CascadeSettings,
     },
 }

@@ -1,12 +1,14 @@
 //! Lights as the caller gives them.
 
+mod cascade_settings;
 mod error;
 mod kind;
 mod validate;
 
+pub use cascade_settings::CascadeSettings;
 pub use error::LightError;
 pub use kind::LightKind;
-pub(crate) use validate::is_normal;
+pub(crate) use validate::{is_normal, not_negative};
 
 /// A light that casts a shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +24,9 @@ impl Light {
     pub fn has_no_size(&self) -> bool {
         match self.kind {
             LightKind::Spot { radius, .. } | LightKind::Point { radius, .. } => radius == 0.0,
-            LightKind::Directional { angular_radius, .. } => angular_radius == 0.0,
+            LightKind::Directional { angular_radius, .. } | LightKind::Cascaded { angular_radius, .. } => {
+                angular_radius == 0.0
+            }
         }
     }
 }

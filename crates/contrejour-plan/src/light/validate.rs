@@ -4,7 +4,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec3;
 
-use super::{Light, LightError, LightKind};
+use super::{CascadeSettings, Light, LightError, LightKind};
 
 impl Light {
     /// Checks every field against its range.
@@ -36,25 +36,51 @@ impl Light {
                 depth_range(near, far)
             }
             LightKind::Directional { towards_light, center, half_extent, half_depth, angular_radius } => {
-                for value in towards_light.to_array() {
-                    if !value.is_finite() {
-                        return Err(LightError::NotFinite { field: "direction towards the light", value });
-                    }
-                }
-                if towards_light == DVec3::ZERO {
-                    return Err(LightError::NoDirection);
-                }
+                direction(towards_light)?;
                 finite_point("center", center)?;
                 positive("half extent", half_extent)?;
                 positive("half depth", half_depth)?;
                 positive("depth range", 2.0 * half_depth)?;
-                if !(0.0..FRAC_PI_2).contains(&angular_radius) {
-                    return Err(LightError::AngularRadius { radians: angular_radius });
-                }
+                less_than_half_the_sky(angular_radius)?;
                 not_negative("angular radius' tangent over the half extent", angular_radius.tan() / half_extent)
+            }
+            LightKind::Cascaded { towards_light, angular_radius, cascades } => {
+                direction(towards_light)?;
+                less_than_half_the_sky(angular_radius)?;
+                cascades.validate()
             }
         }
     }
+}
+
+impl CascadeSettings {
+    fn validate(&self) -> Result<(), LightError> {
+        if !(1..=Self::MAX_COUNT).contains(&self.count) {
+            return Err(LightError::CascadeCount { count: self.count });
+        }
+        let share = |field, value: f64, most| match (0.0..=most).contains(&value) {
+            true => Ok(()),
+            false => Err(LightError::CascadeShare { field, value, most }),
+        };
+        share("logarithmic share", self.logarithmic_share, 1.0)?;
+        share("border share", self.border_share, Self::MAX_BORDER_SHARE)?;
+        share("caster margin", self.caster_margin, Self::MAX_CASTER_MARGIN)
+    }
+}
+
+/// A direction towards a light, of any length.
+fn direction(towards_light: DVec3) -> Result<(), LightError> {
+    for value in towards_light.to_array() {
+        if !value.is_finite() {
+            return Err(LightError::NotFinite { field: "direction towards the light", value });
+        }
+    }
+    if towards_light == DVec3::ZERO { Err(LightError::NoDirection) } else { Ok(()) }
+}
+
+fn less_than_half_the_sky(angular_radius: f64) -> Result<(), LightError> {
+    let is_less = (0.0..FRAC_PI_2).contains(&angular_radius);
+    if is_less { Ok(()) } else { Err(LightError::AngularRadius { radians: angular_radius }) }
 }
 
 /// Depths of a perspective view.
@@ -82,7 +108,7 @@ fn finite_point(field: &'static str, point: DVec3) -> Result<(), LightError> {
     point.to_array().into_iter().try_for_each(|value| finite(field, value))
 }
 
-fn not_negative(field: &'static str, value: f64) -> Result<(), LightError> {
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<(), LightError> {
     finite(field, value)?;
     if value >= 0.0 { Ok(()) } else { Err(LightError::Negative { field, value }) }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::View;
+use super::{CastersInFront, View};
 
 /// Room for rounding of the depth, in NDC: `f32` matrices are off by less.
 const DEPTH_GUARD_NDC: f64 = 1e-5;
@@ -28,6 +28,11 @@ impl View {
                 |axis: usize| f64::from(if corner >> axis & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] });
             clip_from_object * DVec3::new(pick(0), pick(1), pick(2)).extend(1.0)
         });
+        let front = match self.casters_in_front {
+            CastersInFront::Clipped => DVec4::new(0.0, 0.0, 1.0, DEPTH_GUARD_NDC),
+            // Beyond no plane at all.
+            CastersInFront::Pancaked => DVec4::W,
+        };
         // What is beyond a plane is linear in clip space, so corners decide for the box, also behind the light.
         let side = 1.0 + guard_ndc;
         let planes = [
@@ -35,7 +40,7 @@ impl View {
             DVec4::new(-1.0, 0.0, 0.0, side),
             DVec4::new(0.0, 1.0, 0.0, side),
             DVec4::new(0.0, -1.0, 0.0, side),
-            DVec4::new(0.0, 0.0, 1.0, DEPTH_GUARD_NDC),
+            front,
             DVec4::new(0.0, 0.0, -1.0, 1.0 + DEPTH_GUARD_NDC),
         ];
         !planes.into_iter().any(|plane| corners.into_iter().all(|corner| plane.dot(corner) < 0.0))

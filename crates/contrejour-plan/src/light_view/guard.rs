@@ -18,13 +18,14 @@ const BLUR_REACH: f64 = 2.0;
 /// ends and its neighbour begins. Unit: NDC of the widened view. Range: 0 to [`MAX_GUARD_NDC`].
 ///
 /// It holds the widest smoothie, or the widest filter, that the technique can have with the light's size, and
-/// the texels by which look-ups reach beyond their place. 0 for lights of a single view.
+/// the texels by which look-ups reach beyond their place. 0 for lights of a single view, and for cascades, which have a
+/// guard band of their own in [`cascade_views`](crate::cascade_views).
 pub fn guard_ndc(light: &Light, settings: &ShadowSettings) -> f64 {
     match light.kind {
         // The penumbra of a caster at the nearest depth on a receiver infinitely far away, R / (near tan(fov / 2)): the
         // guard makes near and the tangent's inverse smaller alike.
         LightKind::Point { radius, near, .. } => guard_of_size(radius / near, settings),
-        LightKind::Spot { .. } | LightKind::Directional { .. } => 0.0,
+        LightKind::Spot { .. } | LightKind::Directional { .. } | LightKind::Cascaded { .. } => 0.0,
     }
 }
 

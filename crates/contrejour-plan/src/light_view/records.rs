@@ -4,6 +4,7 @@ use contrejour_layout::{LightView, ReceiverView};
 
 use super::caster_place::words_of;
 use super::{Projection, View};
+use super::{CastersInFront, Projection, View};
 use crate::{DepthPrecision, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, VarianceSoftness};
 
 /// The smallest smoothie width: less, and the rim falls between texels.
@@ -137,8 +138,12 @@ impl View {
     }
 
     /// The widest smoothie that a blocker anywhere between near and far can have, in NDC.
+    /// The widest smoothie that a blocker anywhere between near and far, or in front of a cascade, can have, in NDC.
     pub fn widest_smoothie_ndc(&self, smoothies: &SmoothieSettings, map_size: u32) -> f64 {
         let width = self.width_terms(smoothies, map_size);
+        if self.casters_in_front == CastersInFront::Pancaked && width.per_q > 0.0 {
+            return width.max;
+        }
         let unclamped = width.fixed + width.per_q * (self.q_max() - self.q_of_depth(self.near_depth));
         unclamped.clamp(width.min, width.max)
     }

@@ -20,6 +20,19 @@ pub enum Projection {
     Orthographic,
 }
 
+/// What becomes of casters between the light and a view's nearest depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CastersInFront {
+    /// They cast nothing. So are those of spots, point lights and a single map of parallel light.
+    Clipped,
+    /// They cast. Only cascades, which are orthographic, do so.
+    ///
+    /// Where a clip z below 0 would be clipped, it becomes 0, vertex by vertex or, where the device can do so, pixel by
+    /// pixel: an image that is pressed flat. Linear depth stays what it is, less than the nearest depth and maybe negative:
+    /// shadow map and quads are made from it, and neither is clipped at or moved to the nearest depth.
+    Pancaked,
+}
+
 /// A square camera that a light looks through.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
@@ -33,7 +46,8 @@ pub struct View {
     pub light_world: DVec4,
     /// Unit direction of the axis in world space, away from the light.
     pub axis_world: DVec3,
-    /// Nearest depth, world units. More than 0 in a perspective view, 0 in an orthographic one.
+    /// Nearest depth, world units. More than 0 in a perspective view, 0 in an orthographic one, 0 or less in a cascade,
+    /// where depths below 0 are those of casters alone.
     pub near_depth: f64,
     /// Farthest depth, world units.
     pub far_depth: f64,
@@ -42,6 +56,8 @@ pub struct View {
     /// Size of the light on the image plane, NDC per unit of q: the half penumbra of a blocker at depth b on a
     /// receiver at depth r is `light_size * (q(r) - q(b))`.
     pub light_size: f64,
+    /// What becomes of casters that are nearer than `near_depth`.
+    pub casters_in_front: CastersInFront,
 }
 
 /// The views of a light: one for a spot and for a directional light, six for a point light, in the order of
@@ -50,7 +66,7 @@ pub struct View {
 ///
 /// # Errors
 ///
-/// The light has a field that is out of its range.
+/// The light has a field that is out of its range, or is cascaded: then see [`cascade_views`](crate::cascade_views).
 pub fn views(light: &Light) -> Result<Vec<View>, LightError> {
     views_with_guard(light, 0.0)
 }
@@ -64,13 +80,14 @@ pub fn views(light: &Light) -> Result<Vec<View>, LightError> {
 ///
 /// # Errors
 ///
-/// The light has a field that is out of its range, or the guard leaves nothing of a map.
+/// As [`views`] has, or the guard leaves nothing of a map.
 pub fn views_with_guard(light: &Light, guard_ndc: f64) -> Result<Vec<View>, LightError> {
     light.validate()?;
     let view = match light.kind {
         LightKind::Point { position, radius, near, far } => {
             return cube_views(position, radius, [near, far], guard_ndc);
         }
+        LightKind::Cascaded { .. } => return Err(LightError::NeedsEye),
         LightKind::Spot { position, target, cone_angle, radius, near, far } => {
             let axis_world = unit(target - position);
             let half_side = (cone_angle / 2.0).tan();
@@ -83,6 +100,7 @@ pub fn views_with_guard(light: &Light, guard_ndc: f64) -> Result<Vec<View>, Ligh
                 far_depth: far,
                 half_side,
                 light_size: radius / half_side,
+                casters_in_front: CastersInFront::Clipped,
             }
         }
         LightKind::Directional { towards_light, center, half_extent, half_depth, angular_radius } => {
@@ -99,6 +117,7 @@ pub fn views_with_guard(light: &Light, guard_ndc: f64) -> Result<Vec<View>, Ligh
                 far_depth,
                 half_side: half_extent,
                 light_size: angular_radius.tan() / half_extent,
+                casters_in_front: CastersInFront::Clipped,
             }
         }
     };

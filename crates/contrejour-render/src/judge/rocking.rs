@@ -20,7 +20,9 @@ pub fn rocked(light: &Light, frame: usize) -> Light {
     match &mut rocked.kind {
         LightKind::Spot { position, target, .. } => *position += sideways(*position - *target),
         LightKind::Point { position, far, .. } => position.x += HAIR * *far,
-        LightKind::Directional { towards_light, .. } => *towards_light += sideways(*towards_light),
+        LightKind::Directional { towards_light, .. } | LightKind::Cascaded { towards_light, .. } => {
+            *towards_light += sideways(*towards_light);
+        }
     }
     rocked
 }

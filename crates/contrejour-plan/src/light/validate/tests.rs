@@ -82,3 +82,30 @@ fn each_bad_field_of_a_point_light_has_its_error() {
     let error = Light { kind, color: [1.0; 3] }.validate();
     assert_eq!(error, Err(LightError::NotFinite { field: "position", value: f64::INFINITY }));
 }
+
+#[test]
+fn each_bad_field_of_cascades_has_its_error() {
+    let cascaded = |towards_light, angular_radius, cascades| {
+        let kind = LightKind::Cascaded { towards_light, angular_radius, cascades };
+        Light { kind, color: [1.0; 3] }.validate()
+    };
+    let with = |change: &dyn Fn(&mut CascadeSettings)| {
+        let mut cascades = CascadeSettings::DEFAULT;
+        change(&mut cascades);
+        cascaded(DVec3::Y, 0.01, cascades)
+    };
+    assert_eq!(with(&|_| ()), Ok(()));
+    assert_eq!(with(&|cascades| cascades.count = 8), Ok(()));
+    for count in [0, 9] {
+        assert_eq!(with(&|cascades| cascades.count = count), Err(LightError::CascadeCount { count }));
+    }
+    let share = |field, value, most| Err(LightError::CascadeShare { field, value, most });
+    assert_eq!(with(&|cascades| cascades.logarithmic_share = 1.5), share("logarithmic share", 1.5, 1.0));
+    assert_eq!(with(&|cascades| cascades.border_share = -0.1), share("border share", -0.1, 0.5));
+    assert!(with(&|cascades| cascades.border_share = f64::NAN).is_err());
+    assert_eq!(with(&|cascades| cascades.caster_margin = -1.0), share("caster margin", -1.0, 1e3));
+
+    assert_eq!(cascaded(DVec3::ZERO, 0.01, CascadeSettings::DEFAULT), Err(LightError::NoDirection));
+    let error = cascaded(DVec3::Y, -0.1, CascadeSettings::DEFAULT);
+    assert_eq!(error, Err(LightError::AngularRadius { radians: -0.1 }));
+}

@@ -110,7 +110,7 @@ mod tests {
         let of = |light: &Light| match light.kind {
             LightKind::Spot { position, target, .. } => position - target,
             LightKind::Point { position, .. } => position,
-            LightKind::Directional { towards_light, .. } => towards_light,
+            LightKind::Directional { towards_light, .. } | LightKind::Cascaded { towards_light, .. } => towards_light,
         };
         let distance = of(&torus.scene.light).length();
         let offsets: Vec<DVec3> = (0..LIGHTS).map(|step| of(&on_sphere(&torus.scene.light, step))).collect();
