@@ -6,3 +6,4 @@ mod convergence;
 mod disk_lights;
 mod exact;
 mod lights_cut_by_a_plane;
+mod sphere_lights;
