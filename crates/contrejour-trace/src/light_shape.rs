@@ -22,7 +22,8 @@ pub enum LightShape {
     ///
     /// A point at the distance d from the centre of a sphere of radius R sees no more of it than the disk inside its
     /// silhouette, which faces the point at the distance d - R^2 / d and has the radius R sqrt(1 - R^2 / d^2). By that
-    /// disk's area the answer would be almost the same: the two are apart by less than 0.12 times (R / d)^2.
+    /// disk's area the answer would be almost the same: up to R = 0.4 d, a half plane hides parts of the two that are
+    /// apart by less than 0.06 (R / d)^2.
     Sphere {
         /// Its centre.
         center: DVec3,
