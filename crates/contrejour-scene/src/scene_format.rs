@@ -53,7 +53,7 @@
 //!
 //! | Key | Value | Default |
 //! | --- | --- | --- |
-//! | `kind` | `"spot"` or `"directional"` | must be given |
+//! | `kind` | `"spot"`, `"point"` or `"directional"` | must be given |
 //! | `color` | colour times intensity | `[1, 1, 1]` |
 //!
 //! A spot light has:
@@ -65,6 +65,14 @@
 //! | `cone_angle_degrees` | full opening angle, 0.01 to 179 | around all meshes, at most 130 |
 //! | `radius` | radius of the disk that shines, 0 and up | `0` |
 //! | `near`, `far` | depths between which it casts and is received | around all meshes |
+//!
+//! A point light, which shines in all directions, has:
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `position` | where it is | must be given |
+//! | `radius` | radius of the sphere that shines, 0 and up | `0` |
+//! | `near`, `far` | depths, along the nearest axis of the world, between which it casts and is received | around all meshes |
 //!
 //! A directional light has:
 //!

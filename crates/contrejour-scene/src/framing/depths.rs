@@ -10,6 +10,9 @@ const WIDEST_CONE_DEGREES: f64 = 130.0;
 /// Depths where there is nothing to see.
 const EMPTY_DEPTHS: [f64; 2] = [0.1, 100.0];
 
+/// A light's nearest depth is this share of its farthest one, or more.
+const LIGHT_LEAST_SHARE: f64 = 1e-2;
+
 /// Near and far depth of a camera at `eye` that looks along the unit vector `forward`.
 pub(crate) fn camera_depths(bounds: &Bounds, eye: DVec3, forward: DVec3) -> [f64; 2] {
     depths(bounds, eye, forward, 1e-3)
@@ -17,7 +20,23 @@ pub(crate) fn camera_depths(bounds: &Bounds, eye: DVec3, forward: DVec3) -> [f64
 
 /// Near and far depth of a light at `position` that shines along the unit vector `axis`.
 pub(crate) fn light_depths(bounds: &Bounds, position: DVec3, axis: DVec3) -> [f64; 2] {
-    depths(bounds, position, axis, 1e-2)
+    depths(bounds, position, axis, LIGHT_LEAST_SHARE)
+}
+
+/// Near and far depth of a light at `position` that shines all around, along whichever axis of the world is nearest.
+pub(crate) fn depths_all_around(bounds: &Bounds, position: DVec3) -> [f64; 2] {
+    if bounds.is_empty() {
+        return EMPTY_DEPTHS;
+    }
+    // 0 where the light is inside the box.
+    let nearest = (position.clamp(bounds.min, bounds.max) - position).abs().max_element();
+    let farthest =
+        bounds.corners().map(|corner| (corner - position).abs().max_element()).into_iter().fold(0.0, f64::max);
+    if farthest <= 0.0 {
+        return EMPTY_DEPTHS;
+    }
+    let far = 1.02 * farthest;
+    [(0.9 * nearest).max(LIGHT_LEAST_SHARE * far), far]
 }
 
 /// Nearest and farthest depth of the box with some room; `near` is at least `least_share` of `far`, also where the box

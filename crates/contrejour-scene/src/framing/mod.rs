@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::{Bounds, Scene, SceneMesh};
 
-pub(crate) use depths::{camera_depths, cone_angle, light_depths, sun_extents};
+pub(crate) use depths::{camera_depths, cone_angle, depths_all_around, light_depths, sun_extents};
 
 /// Boxes that are smaller count as points, so that no depth is too small for 32 bits.
 const SMALLEST: f64 = 1e-30;

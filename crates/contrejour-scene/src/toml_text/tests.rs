@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use contrejour_plan::{AlphaRemap, DepthPrecision, LightKind, ShadowSettings, SmoothieWidth, Technique};
+use glam::DVec3;
 
 use crate::{BUILT_IN_SCENES, MeshSource, Place, Problem, Scene, SceneError};
 
@@ -166,7 +167,7 @@ fn mesh_files_are_found_beside_the_scene() {
 }
 
 #[test]
-fn lights_of_both_kinds_are_read() {
+fn lights_of_all_kinds_are_read() {
     let sun = GOOD
         .replace("\"spot\"", "\"directional\"\nangular_radius_degrees = 90e-1")
         .replace("position = [-3, 5, 2]\ntarget = [0, 0, 0]", "towards_light = [0, 3, 0]");
@@ -177,7 +178,17 @@ fn lights_of_both_kinds_are_read() {
     };
     assert!(center.length() < 1e-6 && half_extent > 1.15 && half_depth > 0.35, "{half_extent} {half_depth}");
     assert!((angular_radius - 9_f64.to_radians()).abs() < 1e-15);
-    assert_refused("\"spot\"", "\"lamp\"", 8, 8, "`kind` is \"lamp\"; give one of `spot`, `directional`");
+
+    let lamp = GOOD
+        .replace("\"spot\"", "\"point\"\nradius = 0.3")
+        .replace("position = [-3, 5, 2]\ntarget = [0, 0, 0]", "position = [0, 1, 0]");
+    let LightKind::Point { position, radius, near, far } = read(&lamp).expect("good").light.kind else {
+        panic!("a lamp was asked for")
+    };
+    assert_eq!((position, radius), (DVec3::Y, 0.3));
+    assert!(near > 0.1 && near < 1.0 && far > 1.0 && far < 5.0, "{near} {far}");
+    assert_refused("\"spot\"", "\"point\"", 10, 1, "target");
+    assert_refused("\"spot\"", "\"lamp\"", 8, 8, "`kind` is \"lamp\"; give one of `spot`, `point`, `directional`");
 }
 
 #[test]
