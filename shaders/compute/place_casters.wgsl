@@ -140,7 +140,7 @@ fn may_be_seen(id: u32, matrix: mat4x4f) -> bool {
     if view.culls_casters == 0u || caster_places[id].casts != CASTER_IN_VIEW {
         return true;
     }
-    let side = 1.0 + view.guard_ndc;
+    let side = 1.0 + view.reach_ndc;
     return !(is_beyond(id, matrix, vec4f(1.0, 0.0, 0.0, side))
         || is_beyond(id, matrix, vec4f(-1.0, 0.0, 0.0, side))
         || is_beyond(id, matrix, vec4f(0.0, 1.0, 0.0, side))

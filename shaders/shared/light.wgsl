@@ -33,7 +33,7 @@ struct LightView {
     warp_exponent: f32,
     caster_count: u32,
     culls_casters: u32,
-    guard_ndc: f32,
+    reach_ndc: f32,
     light_world: array<vec4u, 2>,
     light_clip_from_world: array<vec4u, 8>,
 }

@@ -1,6 +1,6 @@
 // Moments of depth, looked up blurred. Depth is a share of the view's depth range.
 
-@group(CONTREJOUR_GROUP) @binding(1) var contrejour_moments: texture_2d<f32>;
+@group(CONTREJOUR_GROUP) @binding(1) var contrejour_moments: texture_2d_array<f32>;
 @group(CONTREJOUR_GROUP) @binding(2) var contrejour_moments_sampler: sampler;
 
 // Radius in texels of the disk that spreads as much as level 0 does. A level's texel averages with a variance of
@@ -15,7 +15,8 @@ fn contrejour_depth_share(depth: f32) -> f32 {
 
 fn contrejour_blurred_moments(ndc: vec2f, radius_texels: f32) -> vec4f {
     let level = log2(max(radius_texels / CONTREJOUR_LEVEL_RADIUS, 1.0));
-    return textureSampleLevel(contrejour_moments, contrejour_moments_sampler, contrejour_uv_of_ndc(ndc), level);
+    let uv = contrejour_uv_of_ndc(ndc);
+    return textureSampleLevel(contrejour_moments, contrejour_moments_sampler, uv, contrejour_layer, level);
 }
 
 // The largest share of depths with this mean and mean square that can be at or behind a depth (Chebyshev's inequality

@@ -1,8 +1,13 @@
 // The one function for a receiver's shader: `contrejour_visibility(position_world, normal_world)`, 0 dark to 1 lit.
-// Joined with one of the visibility files and with `const CONTREJOUR_GROUP`, the bind group that the caller names.
+// Joined with one of the visibility files and one of the views' files, with `const CONTREJOUR_GROUP`, the bind group that
+// the caller names, and `const CONTREJOUR_VIEWS`, how many views the light has.
 // Every name here carries the library's, so that it meets none of the caller's.
 
-@group(CONTREJOUR_GROUP) @binding(0) var<uniform> contrejour_receiver_view: ReceiverView;
+@group(CONTREJOUR_GROUP) @binding(0) var<uniform> contrejour_receiver_views: array<ReceiverView, CONTREJOUR_VIEWS>;
+
+// The view that is looked up, and its index: the layer of its maps.
+var<private> contrejour_receiver_view: ReceiverView;
+var<private> contrejour_layer: u32;
 
 // Where a receiver looks into the maps, and the depth that it compares.
 struct ContrejourLookup {
@@ -23,6 +28,8 @@ const CONTREJOUR_MAX_SLOPE = 64.0;
 // Visibility of the light from a point with a unit normal. Points outside the light's maps are lit; a side that is
 // averted from the light is dark. Without a normal (zero) no side is.
 fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 {
+    contrejour_layer = contrejour_view_of(position_world);
+    contrejour_receiver_view = contrejour_receiver_views[contrejour_layer];
     let lookup = contrejour_lookup(position_world, normal_world);
     if lookup.is_averted {
         return 0.0;

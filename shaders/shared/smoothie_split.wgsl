@@ -1,12 +1,12 @@
 // The smoothie buffer in two textures: a hardware depth buffer, and alpha in 16-bit float.
 
-@group(CONTREJOUR_GROUP) @binding(2) var contrejour_smoothie_depth: texture_depth_2d;
-@group(CONTREJOUR_GROUP) @binding(3) var contrejour_smoothie_alpha: texture_2d<f32>;
+@group(CONTREJOUR_GROUP) @binding(2) var contrejour_smoothie_depth: texture_depth_2d_array;
+@group(CONTREJOUR_GROUP) @binding(3) var contrejour_smoothie_alpha: texture_2d_array<f32>;
 
 fn contrejour_smoothie_at(texel: vec2i) -> ContrejourSmoothie {
     return ContrejourSmoothie(
-        contrejour_linear_depth(textureLoad(contrejour_smoothie_depth, texel, 0)),
-        textureLoad(contrejour_smoothie_alpha, texel, 0).x,
+        contrejour_linear_depth(textureLoad(contrejour_smoothie_depth, texel, contrejour_layer, 0)),
+        textureLoad(contrejour_smoothie_alpha, texel, contrejour_layer, 0).x,
     );
 }
 

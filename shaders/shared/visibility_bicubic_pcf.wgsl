@@ -16,7 +16,13 @@ fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
             let place = corner + 2.0 * vec2f(f32(column), f32(row));
             let offset_ndc = (place - 0.5 - texel) * vec2f(2.0, -2.0) / size;
             let z = contrejour_clip_z_of_q(q + dot(gradient, offset_ndc));
-            let seen = textureGatherCompare(contrejour_shadow_map, contrejour_shadow_sampler, place / size, z);
+            let seen = textureGatherCompare(
+                contrejour_shadow_map,
+                contrejour_shadow_sampler,
+                place / size,
+                contrejour_layer,
+                z,
+            );
             // Gathered counter-clockwise from the lower left texel; rows of a texture go down.
             let above = seen.w * columns[2 * column] + seen.z * columns[2 * column + 1];
             let below = seen.x * columns[2 * column] + seen.y * columns[2 * column + 1];

@@ -37,7 +37,7 @@ fn contrejour_map_q(ndc: vec2f) -> f32 {
     let view = contrejour_receiver_view;
     let texel = vec2i(floor(contrejour_uv_of_ndc(ndc) * f32(view.map_size)));
     let inside = clamp(texel, vec2i(0), vec2i(i32(view.map_size) - 1));
-    return (textureLoad(contrejour_shadow_map, inside, 0) - view.ndc_offset) / view.ndc_scale;
+    return (textureLoad(contrejour_shadow_map, inside, contrejour_layer, 0) - view.ndc_offset) / view.ndc_scale;
 }
 
 // Points spread evenly over the unit disk (Vogel 1979).

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::Arc;
 
-use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_gpu::{CasterHandle, CasterInput, LightHandle, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{BLOCK_SIZE, Counters, LIT_WORDS_PER_BLOCK, SilhouetteEdge};
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_oracle::{ManyLights, OracleTopology};
@@ -65,13 +65,13 @@ impl Tally {
 pub struct Exhaust<'a> {
     gpu: &'a Gpu,
     shadows: Shadows,
+    light: Option<LightHandle>,
     casters: Vec<ExactCaster>,
     free: Vec<wgpu::Buffer>,
 }
 
 struct ExactCaster {
-    handle: MeshHandle,
-    own_positions: Option<OwnPositions>,
+    handle: CasterHandle,
     mesh: Arc<TopologyAwareMesh>,
     oracle: ManyLights,
     lit_words: Range<usize>,
@@ -145,9 +145,8 @@ impl<'a> Exhaust<'a> {
     }
 
     fn empty(gpu: &'a Gpu) -> Result<Self, String> {
-        let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
-        let shadows = Shadows::new(&gpu.device, &options).map_err(|error| error.to_string())?;
-        Ok(Self { gpu, shadows, casters: Vec::new(), free: Vec::new() })
+        let shadows = Shadows::new(&gpu.device).map_err(|error| error.to_string())?;
+        Ok(Self { gpu, shadows, light: None, casters: Vec::new(), free: Vec::new() })
     }
 
     fn add(
@@ -158,9 +157,13 @@ impl<'a> Exhaust<'a> {
     ) -> Result<(), String> {
         let first_word = self.casters.last().map_or(0, |caster| caster.lit_words.end);
         let words = mesh.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize;
+        let handle = self.shadows.add_mesh(Arc::clone(mesh)).map_err(|error| error.to_string())?;
+        let positions = own_positions.map_or(Positions::OfMesh, |OwnPositions { buffer, stride, .. }| {
+            Positions::InBuffer { buffer, offset: 0, stride }
+        });
+        let caster = CasterInput { mesh: handle, world_from_object: DMat4::IDENTITY, positions };
         self.casters.push(ExactCaster {
-            handle: self.shadows.add_mesh(Arc::clone(mesh)).map_err(|error| error.to_string())?,
-            own_positions,
+            handle: self.shadows.add_caster(&caster).map_err(|error| error.to_string())?,
             mesh: Arc::clone(mesh),
             oracle: ManyLights::new(oracle),
             lit_words: first_word..first_word + words,
@@ -195,11 +198,20 @@ impl<'a> Exhaust<'a> {
 
     fn submit(&mut self, light: ObjectLight) -> Result<Waiting, String> {
         light.check_bits()?;
-        let world_from_object = light.world_from_object();
-        let casters: Vec<_> = self.casters.iter().map(|caster| caster.input(world_from_object)).collect();
+        for caster in &self.casters {
+            let moved = self.shadows.place_caster(caster.handle, &light.world_from_object());
+            moved.map_err(|error| error.to_string())?;
+        }
         let Gpu { device, queue, .. } = self.gpu;
-        let frame = FrameInput { light: &light.light(), casters: &casters };
-        self.shadows.prepare(device, queue, &frame).map_err(|error| error.to_string())?;
+        match self.light {
+            Some(handle) => self.shadows.set_light(handle, &light.light()).map_err(|error| error.to_string())?,
+            None => {
+                let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
+                let added = self.shadows.add_light(device, &light.light(), &options);
+                self.light = Some(added.map_err(|error| error.to_string())?);
+            }
+        }
+        self.shadows.prepare(device, queue).map_err(|error| error.to_string())?;
 
         let buffer = self.free.pop().unwrap_or_else(|| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -280,16 +292,6 @@ impl<'a> Exhaust<'a> {
             }
         }
         tally
-    }
-}
-
-impl ExactCaster {
-    fn input(&self, world_from_object: DMat4) -> CasterInput<'_> {
-        let positions = match &self.own_positions {
-            None => Positions::OfMesh,
-            Some(OwnPositions { buffer, stride, .. }) => Positions::InBuffer { buffer, offset: 0, stride: *stride },
-        };
-        CasterInput { mesh: self.handle, world_from_object, positions }
     }
 }
 

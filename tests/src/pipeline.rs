@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, PrepareError, ShadowOptions, Shadows, Untimed};
+use contrejour_gpu::{
+    CasterHandle, CasterInput, LightHandle, Maps, MeshHandle, Positions, PrepareError, ShadowOptions, Shadows, Untimed,
+};
 use contrejour_layout::{Corner, Counters, Quad, SilhouetteEdge};
-use contrejour_plan::{BufferKind, Light};
+use contrejour_plan::{BufferKind, FramePlan, Light};
 use glam::DMat4;
 
 use crate::gpu::Gpu;
@@ -14,13 +16,16 @@ use crate::meshes::TestMesh;
 /// counts their corners, one that has room for those too.
 pub const MAX_FRAMES: u32 = 3;
 
-/// A shadow object with the parts of one mesh as casters.
+/// A shadow object with the parts of one mesh as casters, and one light.
 #[derive(Debug)]
 pub struct Pipeline<'a> {
     /// The library's object.
     pub shadows: Shadows,
     gpu: &'a Gpu,
-    casters: Vec<(MeshHandle, DMat4)>,
+    options: ShadowOptions,
+    parts: Vec<(MeshHandle, DMat4)>,
+    casters: Vec<CasterHandle>,
+    light: Option<LightHandle>,
 }
 
 impl<'a> Pipeline<'a> {
@@ -30,37 +35,74 @@ impl<'a> Pipeline<'a> {
     ///
     /// What the library refuses.
     pub fn new(gpu: &'a Gpu, mesh: &TestMesh, options: &ShadowOptions) -> Result<Self, String> {
-        let mut shadows = Shadows::new(&gpu.device, options).map_err(|error| error.to_string())?;
+        let mut shadows = Shadows::new(&gpu.device).map_err(|error| error.to_string())?;
+        let mut parts = Vec::new();
         let mut casters = Vec::new();
         for part in &mesh.parts {
-            let handle = shadows.add_mesh(Arc::clone(&part.topology)).map_err(|error| error.to_string())?;
-            casters.push((handle, part.world_from_object));
+            let mesh = shadows.add_mesh(Arc::clone(&part.topology)).map_err(|error| error.to_string())?;
+            parts.push((mesh, part.world_from_object));
+            casters.push(shadows.add_caster(&input(parts[parts.len() - 1])).map_err(|error| error.to_string())?);
         }
-        Ok(Self { shadows, gpu, casters })
+        Ok(Self { shadows, gpu, options: *options, parts, casters, light: None })
     }
 
-    /// Prepares a frame.
+    /// Prepares a frame with the light like this.
     ///
     /// # Errors
     ///
     /// What the library refuses.
+    ///
+    /// # Panics
+    ///
+    /// When the light or the options are out of range.
     pub fn prepare(&mut self, light: &Light) -> Result<(), PrepareError> {
-        let casters: Vec<_> = self
-            .casters
-            .iter()
-            .map(|&(mesh, world_from_object)| CasterInput { mesh, world_from_object, positions: Positions::OfMesh })
-            .collect();
-        self.shadows.prepare(&self.gpu.device, &self.gpu.queue, &FrameInput { light, casters: &casters })
+        match self.light {
+            Some(handle) => self.shadows.set_light(handle, light).expect("the lights of the tests are good"),
+            None => {
+                let handle = self.shadows.add_light(&self.gpu.device, light, &self.options);
+                self.light = Some(handle.expect("lights and options of the tests are good"));
+            }
+        }
+        self.shadows.prepare(&self.gpu.device, &self.gpu.queue)
     }
 
     /// Moves a caster.
+    ///
+    /// # Panics
+    ///
+    /// When there is none of this index.
     pub fn place(&mut self, caster: usize, world_from_object: DMat4) {
-        self.casters[caster].1 = world_from_object;
+        self.shadows.place_caster(self.casters[caster], &world_from_object).expect("the caster is there");
     }
 
-    /// Lets two casters change places.
-    pub fn swap(&mut self, caster: usize, other: usize) {
-        self.casters.swap(caster, other);
+    /// Removes the last caster and adds it again.
+    ///
+    /// # Panics
+    ///
+    /// When there is none.
+    pub fn replace_last(&mut self) {
+        let (part, caster) = self.parts.last().zip(self.casters.last_mut()).expect("there is a caster");
+        self.shadows.remove_caster(*caster).expect("the caster is there");
+        *caster = self.shadows.add_caster(&input(*part)).expect("it was there before");
+    }
+
+    /// The light's handle.
+    ///
+    /// # Panics
+    ///
+    /// Before the first frame.
+    pub fn light(&self) -> LightHandle {
+        self.light.expect("a frame was prepared")
+    }
+
+    /// The plan of the last frame.
+    pub fn plan(&self) -> Option<&FramePlan> {
+        self.shadows.plan(self.light?)
+    }
+
+    /// The light's maps.
+    pub fn maps(&self) -> Maps<'_> {
+        self.shadows.maps(self.light())
     }
 
     /// Prepares and submits one frame and waits for what it counted; zeros where the plan counts nothing.
@@ -120,4 +162,8 @@ impl<'a> Pipeline<'a> {
         }
         records
     }
+}
+
+fn input((mesh, world_from_object): (MeshHandle, DMat4)) -> CasterInput {
+    CasterInput { mesh, world_from_object, positions: Positions::OfMesh }
 }

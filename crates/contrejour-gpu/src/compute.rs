@@ -3,9 +3,8 @@
 use contrejour_layout::{BLOCK_SIZE, DispatchArgs, MAX_GROUPS_X};
 use contrejour_plan::{PagePlan, Stage, ViewCounts};
 
-use crate::resources::{Buffers, binding_type};
+use crate::resources::{Bindings, Buffers, binding_type};
 use crate::stages::{ComputeStage, Dispatch};
-use crate::timer::PassTimer;
 
 /// The pipeline of a stage.
 #[derive(Debug)]
@@ -61,45 +60,35 @@ impl StagePipeline {
     }
 
     /// The bind group of a page.
-    pub fn bind(&self, device: &wgpu::Device, buffers: &Buffers, page: usize) -> wgpu::BindGroup {
-        buffers.bind(device, self.stage().name(), &self.layout, (self.stage().buffers(), page), None)
+    pub fn bind(&self, device: &wgpu::Device, bindings: &Bindings<'_>, page: usize) -> wgpu::BindGroup {
+        bindings.bind(device, self.stage().name(), &self.layout, (self.stage().buffers(), page), None)
     }
 
-    /// Records the stage over all pages as a pass of its own, so that a timer sees it alone.
-    pub fn encode<T: PassTimer>(
+    /// Records the stage over all pages.
+    pub fn encode(
         &self,
-        encoder: &mut wgpu::CommandEncoder,
+        pass: &mut wgpu::ComputePass<'_>,
         bind_groups: &[wgpu::BindGroup],
         buffers: &Buffers,
         pages: &[PagePlan],
-        timer: &mut T,
     ) {
-        let name = self.stage().name();
-        let query = timer.begin(name, encoder);
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(name),
-                timestamp_writes: T::compute_writes(&query),
-            });
-            pass.set_pipeline(&self.pipeline);
-            for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
-                pass.set_bind_group(0, bind_group, &[]);
-                match self.description.dispatch {
-                    Dispatch::Casters if index > 0 => {}
-                    Dispatch::Casters => dispatch(&mut pass, page.counts.casters.div_ceil(BLOCK_SIZE)),
-                    Dispatch::Blocks => {
-                        let ViewCounts { face_blocks, edge_blocks, .. } = page.counts;
-                        dispatch(&mut pass, face_blocks.div_ceil(BLOCK_SIZE) + edge_blocks.div_ceil(BLOCK_SIZE));
-                    }
-                    Dispatch::Once => pass.dispatch_workgroups(1, 1, 1),
-                    Dispatch::Indirect(kind, entry) => {
-                        let offset = u64::from(entry) * size_of::<DispatchArgs>() as u64;
-                        pass.dispatch_workgroups_indirect(buffers.get(kind, index), offset);
-                    }
+        pass.set_pipeline(&self.pipeline);
+        for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
+            pass.set_bind_group(0, bind_group, &[]);
+            match self.description.dispatch {
+                Dispatch::Casters if index > 0 => {}
+                Dispatch::Casters => dispatch(pass, page.counts.casters.div_ceil(BLOCK_SIZE)),
+                Dispatch::Blocks => {
+                    let ViewCounts { face_blocks, edge_blocks, .. } = page.counts;
+                    dispatch(pass, face_blocks.div_ceil(BLOCK_SIZE) + edge_blocks.div_ceil(BLOCK_SIZE));
+                }
+                Dispatch::Once => pass.dispatch_workgroups(1, 1, 1),
+                Dispatch::Indirect(kind, entry) => {
+                    let offset = u64::from(entry) * size_of::<DispatchArgs>() as u64;
+                    pass.dispatch_workgroups_indirect(buffers.get(kind, index), offset);
                 }
             }
         }
-        timer.end(query, encoder);
     }
 }
 

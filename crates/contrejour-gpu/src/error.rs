@@ -4,6 +4,8 @@ use contrejour_plan::{LightError, PlanError, SettingsError};
 
 use std::error::Error;
 
+use crate::casters::CasterHandle;
+use crate::lights::LightHandle;
 use crate::pool::MeshHandle;
 
 /// What the device itself fails at. The object that reports it can be used further, unless the device is lost.
@@ -74,9 +76,6 @@ pub enum NewShadowsError {
         /// What is needed.
         needed: u32,
     },
-    /// A setting is out of range.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
     /// The device fails.
     #[error(transparent)]
     Device(#[from] DeviceError),
@@ -96,33 +95,29 @@ pub enum AddMeshError {
     },
 }
 
-/// Why [`Shadows::prepare`](crate::Shadows::prepare) refuses.
+/// Why a caster is not added, moved or removed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum PrepareError {
-    /// The light is no light.
-    #[error(transparent)]
-    Light(#[from] LightError),
-    /// The device can't hold what the frame needs.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// A caster names a mesh that was not added here.
-    #[error("caster {caster} names mesh {mesh:?}, which was not added to this object: use the handle of `add_mesh`")]
+pub enum CasterError {
+    /// The handle is of a caster that was removed, or of another object.
+    #[error("there is no {caster:?} here: use the handle of `add_caster`, until the caster is removed")]
+    UnknownCaster {
+        /// The handle.
+        caster: CasterHandle,
+    },
+    /// It names a mesh that was not added here.
+    #[error("the caster names mesh {mesh:?}, which was not added to this object: use the handle of `add_mesh`")]
     UnknownMesh {
-        /// Index of the caster.
-        caster: usize,
         /// The handle.
         mesh: MeshHandle,
     },
-    /// A caller's position buffer does not hold what the mesh needs.
+    /// The caller's position buffer does not hold what the mesh needs.
     #[error(
-        "the positions of caster {caster} end at byte {needed} of a buffer of {available} bytes, or its offset \
-         ({offset}) or stride ({stride}) is no multiple of 4 or the stride is below 12, or the buffer lacks COPY_SRC: \
-         give one position for each source vertex of the mesh"
+        "the caster's positions end at byte {needed} of a buffer of {available} bytes, or its offset ({offset}) or stride \
+         ({stride}) is no multiple of 4 or the stride is below 12, or the buffer lacks COPY_SRC: give one position for \
+         each source vertex of the mesh"
     )]
     Positions {
-        /// Index of the caster.
-        caster: usize,
         /// Where the last position would end, in bytes.
         needed: u64,
         /// Size of the buffer in bytes.
@@ -132,6 +127,33 @@ pub enum PrepareError {
         /// From one position to the next, in bytes.
         stride: u64,
     },
+}
+
+/// Why a light is not added, changed or removed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShadowLightError {
+    /// The light is no light.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A setting is out of range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// The handle is of a light that was removed, or of another object.
+    #[error("there is no {light:?} here: use the handle of `add_light`, until the light is removed")]
+    UnknownLight {
+        /// The handle.
+        light: LightHandle,
+    },
+}
+
+/// Why [`Shadows::prepare`](crate::Shadows::prepare) refuses.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PrepareError {
+    /// The device can't hold what the frame needs.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// The device fails.
     #[error(transparent)]
     Device(#[from] DeviceError),

@@ -1,99 +1,132 @@
-//! Everything on the device that a frame plan lists, and the frame's commands.
+//! What a light has of its own on the device, and the commands that fill its maps.
+
+use std::sync::Arc;
 
 use contrejour_layout::{Counters, LightView};
-use contrejour_plan::{BufferKind, FramePlan, PagePlan};
+use contrejour_plan::{BufferKind, FramePlan};
 
 use crate::compute::StagePipeline;
-use crate::passes;
-use crate::raster::MapPipeline;
-use crate::resources::{Buffers, Textures};
-use crate::stages;
+use crate::pipelines::Pipelines;
+use crate::raster::{DrawnView, MapPipeline};
+use crate::readback::Copying;
+use crate::resources::{Bindings, Buffers, Textures};
 use crate::timer::PassTimer;
 
-/// Pipelines, buffers and textures of a light view. They follow the plan: what it lists is made, what it no longer
-/// lists is dropped.
+/// Records, maps and bind groups of a light. They follow its plan: what it lists is made, what it no longer lists is
+/// dropped.
 #[derive(Debug, Default)]
 pub(crate) struct Frame {
     pub buffers: Buffers,
     pub textures: Textures,
-    stages: Vec<Bound<StagePipeline>>,
-    passes: Vec<Bound<MapPipeline>>,
-    /// Pages that the bind groups are for.
-    page_count: usize,
+    stages: Vec<Arc<StagePipeline>>,
+    passes: Vec<Arc<MapPipeline>>,
+    views: Vec<ViewGroups>,
 }
 
-/// A pipeline with its bind groups, one for each page, which are made again when a buffer or a texture is.
+/// The bind groups of a view.
 #[derive(Debug)]
-struct Bound<P> {
-    pipeline: P,
-    bind_groups: Vec<wgpu::BindGroup>,
-}
-
-impl<P> Bound<P> {
-    fn new(pipeline: P) -> Self {
-        Self { pipeline, bind_groups: Vec::new() }
-    }
+struct ViewGroups {
+    /// For each stage one for each page.
+    stages: Vec<Vec<wgpu::BindGroup>>,
+    /// For each pass one for each page, level by level.
+    passes: Vec<Vec<wgpu::BindGroup>>,
 }
 
 /// What [`Frame::follow`] made anew.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Made {
-    /// Kinds and pages of buffers.
-    pub buffers: Vec<(BufferKind, usize)>,
+    pub buffers: bool,
     pub textures: bool,
 }
 
 impl Frame {
     /// Makes what the plan lists, drops what it does not list.
-    pub fn follow(&mut self, device: &wgpu::Device, plan: &FramePlan) -> Made {
-        let made = Made { buffers: self.buffers.follow(device, plan), textures: self.textures.follow(device, plan) };
-
-        self.stages.retain(|bound| plan.has_stage(bound.pipeline.stage()));
-        for (description, order) in stages::ALL.iter().filter(|stage| plan.has_stage(stage.stage)).zip(0..) {
-            if self.stages.get(order).is_none_or(|bound| bound.pipeline.stage() != description.stage) {
-                self.stages.insert(order, Bound::new(StagePipeline::new(device, description)));
-            }
-        }
-        self.passes.retain(|bound| plan.has_pass(bound.pipeline.pass()));
-        for (description, order) in passes::ALL.iter().filter(|pass| plan.has_pass(pass.pass)).zip(0..) {
-            if self.passes.get(order).is_none_or(|bound| bound.pipeline.pass() != description.pass) {
-                self.passes.insert(order, Bound::new(MapPipeline::new(device, description, plan)));
-            }
-        }
-
+    pub fn follow(
+        &mut self,
+        device: &wgpu::Device,
+        plan: &FramePlan,
+        view_count: usize,
+        (shared, pipelines): (&Buffers, &mut Pipelines),
+    ) -> Made {
+        let of_light = plan.buffers.iter().filter(|buffer| buffer.kind.is_of_light());
+        let made = Made {
+            buffers: !self.buffers.follow(device, of_light).is_empty(),
+            textures: self.textures.follow(device, plan),
+        };
+        self.stages = pipelines.stages(device, plan);
+        self.passes = pipelines.passes(device, plan);
         let page_count = plan.pages.len();
-        let is_stale = !made.buffers.is_empty() || made.textures || page_count != self.page_count;
-        self.page_count = page_count;
-        for stage in &mut self.stages {
-            if is_stale || stage.bind_groups.is_empty() {
-                stage.bind_groups =
-                    (0..page_count).map(|page| stage.pipeline.bind(device, &self.buffers, page)).collect();
+        let groups = |view: usize| {
+            let bindings = Bindings { shared, of_light: &self.buffers, view };
+            let of_stage =
+                |stage: &Arc<StagePipeline>| (0..page_count).map(|page| stage.bind(device, &bindings, page)).collect();
+            let of_pass = |pass: &Arc<MapPipeline>| pass.bind(device, &bindings, &self.textures, page_count);
+            ViewGroups {
+                stages: self.stages.iter().map(of_stage).collect(),
+                passes: self.passes.iter().map(of_pass).collect(),
             }
-        }
-        for pass in &mut self.passes {
-            if is_stale || pass.bind_groups.is_empty() {
-                pass.bind_groups = pass.pipeline.bind(device, &self.buffers, &self.textures, page_count);
-            }
-        }
+        };
+        self.views = (0..view_count).map(groups).collect();
         made
     }
 
-    /// Records the stages and the passes over the maps.
+    /// Records the stages and the passes over the maps, view by view, and copies what each counted. `records` are those of
+    /// the views on the first page.
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        pages: &[PagePlan],
-        view: &LightView,
+        plan: &FramePlan,
+        shared: &Buffers,
+        records: &[LightView],
+        mut counted: Option<Copying<'_>>,
         timer: &mut T,
     ) {
-        for counters in self.buffers.all(BufferKind::Counters) {
-            encoder.clear_buffer(counters, 0, Some(size_of::<Counters>() as u64));
+        for ((groups, record), view) in self.views.iter().zip(records).zip(0..) {
+            for counters in shared.all(BufferKind::Counters) {
+                encoder.clear_buffer(counters, 0, Some(size_of::<Counters>() as u64));
+            }
+            self.encode_stages(encoder, plan, shared, groups, timer);
+            let drawn = DrawnView { view, record, pages: &plan.pages };
+            for (pipeline, bind_groups) in self.passes.iter().zip(&groups.passes) {
+                pipeline.encode(encoder, bind_groups, (shared, &self.textures), &drawn, timer);
+            }
+            if let Some(counted) = &mut counted {
+                counted.copy(encoder, shared.all(BufferKind::Counters));
+            }
         }
-        for Bound { pipeline, bind_groups } in &self.stages {
-            pipeline.encode(encoder, bind_groups, &self.buffers, pages, timer);
+        if let Some(counted) = counted {
+            counted.finish(encoder);
         }
-        for Bound { pipeline, bind_groups } in &self.passes {
-            pipeline.encode(encoder, bind_groups, (&self.buffers, &self.textures), (pages, view), timer);
+    }
+
+    fn encode_stages<T: PassTimer>(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        plan: &FramePlan,
+        shared: &Buffers,
+        groups: &ViewGroups,
+        timer: &mut T,
+    ) {
+        let stages = || self.stages.iter().zip(&groups.stages);
+        if !T::TIMES_STAGES {
+            if !self.stages.is_empty() {
+                let mut pass = encoder
+                    .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("stages"), timestamp_writes: None });
+                stages().for_each(|(stage, groups)| stage.encode(&mut pass, groups, shared, &plan.pages));
+            }
+            return;
+        }
+        for (stage, groups) in stages() {
+            let name = stage.stage().name();
+            let query = timer.begin(name, encoder);
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some(name),
+                    timestamp_writes: T::compute_writes(&query),
+                });
+                stage.encode(&mut pass, groups, shared, &plan.pages);
+            }
+            timer.end(query, encoder);
         }
     }
 }

@@ -1,11 +1,9 @@
 //! What goes into a frame and what is known of it.
 
 use contrejour_layout::Counters;
-use contrejour_plan::{DeviceFacts, Light, Outputs, ShadowSettings};
+use contrejour_plan::{DeviceFacts, Outputs, ShadowSettings};
 
-use crate::casters::CasterInput;
-
-/// What a [`Shadows`](crate::Shadows) object is made for.
+/// How the shadow of a light is made, and what is wanted of it.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowOptions {
     /// Technique, map size, bias. Default: the preset `medium`.
@@ -26,16 +24,7 @@ impl Default for ShadowOptions {
     }
 }
 
-/// What a frame is made of.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameInput<'a> {
-    /// The light.
-    pub light: &'a Light,
-    /// The casters, in an order that the caller keeps as long as they stay.
-    pub casters: &'a [CasterInput<'a>],
-}
-
-/// The maps of the light's view.
+/// The maps of a light: layers, one for each view.
 #[derive(Clone, Copy, Debug)]
 pub struct Maps<'a> {
     /// Linear depth of the nearest caster, `R32Float`; the view's farthest depth where there is none. With 16 bits
@@ -57,7 +46,8 @@ pub struct Maps<'a> {
 /// What is known about the frames so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameStats {
-    /// Bytes that the last [`prepare`](crate::Shadows::prepare) uploaded for the frame: light and instance records.
+    /// Bytes that the last [`prepare`](crate::Shadows::prepare) uploaded for the frame: records of lights and casters that
+    /// changed.
     pub upload_bytes: u64,
     /// Bytes that it uploaded once because meshes or casters came or went.
     pub set_up_bytes: u64,
@@ -65,11 +55,13 @@ pub struct FrameStats {
     pub overflow_frames: u64,
     /// Times that the library waited for the device: only [`wait_for_counters`](crate::Shadows::wait_for_counters) does.
     pub readback_waits: u64,
-    /// Casters of the last frame whose matrix is singular: they cast nothing.
+    /// Casters whose matrix is singular: they cast nothing.
     pub singular_casters: u32,
-    /// Whether the last frame was like the one before, so that its maps stand and no pass was recorded.
-    pub is_unchanged: bool,
-    /// Counters of the latest frame that has arrived.
+    /// Lights whose maps the last frame makes, or makes anew.
+    pub lights_redone: u32,
+    /// Lights whose maps stand, since neither they nor anything within their reach changed.
+    pub lights_kept: u32,
+    /// Counters of the latest frames that have arrived, of all lights together.
     pub counters: Option<Counters>,
 }
 

@@ -4,15 +4,44 @@ use contrejour_layout::{DrawArgs, LightView};
 use contrejour_plan::{BufferKind, EntryPoints, FramePlan, PagePlan, Pass, PipelinePlan, TextureKind};
 
 use crate::passes::{ClearColor, DrawCount, Levels, MapPass};
-use crate::resources::{Buffers, Textures, UNFILTERED_FLOAT, binding_type, format};
+use crate::resources::{Bindings, Buffers, Textures, UNFILTERED_FLOAT, binding_type, format};
 use crate::timer::PassTimer;
 
 /// The pipelines of a pass, one for each of its draws.
 #[derive(Debug)]
 pub(crate) struct MapPipeline {
     description: &'static MapPass,
+    planned: Planned,
     layout: wgpu::BindGroupLayout,
     pipelines: Vec<wgpu::RenderPipeline>,
+}
+
+/// What a light's plan says of a pass: lights that plan alike share its pipelines.
+#[derive(Clone, Debug, PartialEq)]
+struct Planned {
+    pipelines: Vec<PipelinePlan>,
+    color: Option<wgpu::TextureFormat>,
+    depth: Option<wgpu::TextureFormat>,
+}
+
+impl Planned {
+    fn new(description: &MapPass, plan: &FramePlan) -> Self {
+        let is_of_pass = |planned: &&PipelinePlan| matches!(planned.entry_points, EntryPoints::Raster { pass, .. } if pass == description.pass);
+        Self {
+            pipelines: plan.pipelines.iter().filter(is_of_pass).cloned().collect(),
+            color: description.color.map(|target| planned_format(plan, target.texture)),
+            depth: description.depth.map(|target| planned_format(plan, target.texture)),
+        }
+    }
+}
+
+/// The view that a pass draws.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DrawnView<'a> {
+    /// Index among those of the light.
+    pub view: usize,
+    pub record: &'a LightView,
+    pub pages: &'a [PagePlan],
 }
 
 /// The buffers that a pass binds: what it draws by is not bound.
@@ -23,6 +52,7 @@ fn bound_buffers(pass: Pass) -> Vec<BufferKind> {
 impl MapPipeline {
     pub fn new(device: &wgpu::Device, description: &'static MapPass, plan: &FramePlan) -> Self {
         let name = description.pass.name();
+        let planned = Planned::new(description, plan);
         let layout = bind_group_layout(device, description);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(name),
@@ -33,50 +63,53 @@ impl MapPipeline {
             label: Some(name),
             source: wgpu::ShaderSource::Wgsl(description.wgsl.into()),
         });
-        let targets = description.color.map(|target| {
+        let targets = description.color.zip(planned.color).map(|(target, format)| {
             Some(wgpu::ColorTargetState {
-                format: planned_format(plan, target.texture),
+                format,
                 blend: target.minimum.then_some(wgpu::BlendState { color: MINIMUM, alpha: MINIMUM }),
                 write_mask: wgpu::ColorWrites::ALL,
             })
         });
-        let depth_stencil = description.depth.map(|target| wgpu::DepthStencilState {
-            format: planned_format(plan, target.texture),
+        let depth_stencil = planned.depth.map(|format| wgpu::DepthStencilState {
+            format,
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Less),
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         });
         let pipeline = |planned: &PipelinePlan| {
-            let EntryPoints::Raster { pass, vertex, fragment } = planned.entry_points else { return None };
+            let EntryPoints::Raster { vertex, fragment, .. } = planned.entry_points else { return None };
             let compilation_options =
                 wgpu::PipelineCompilationOptions { constants: &planned.constants, ..Default::default() };
-            (pass == description.pass).then(|| {
-                device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                    label: Some(name),
-                    layout: Some(&pipeline_layout),
-                    vertex: wgpu::VertexState {
-                        module: &module,
-                        entry_point: Some(vertex),
-                        compilation_options: compilation_options.clone(),
-                        buffers: &[],
-                    },
-                    primitive: wgpu::PrimitiveState::default(),
-                    depth_stencil: depth_stencil.clone(),
-                    multisample: wgpu::MultisampleState::default(),
-                    fragment: fragment.map(|fragment| wgpu::FragmentState {
-                        module: &module,
-                        entry_point: Some(fragment),
-                        compilation_options,
-                        targets: targets.as_slice(),
-                    }),
-                    multiview_mask: None,
-                    cache: None,
-                })
-            })
+            Some(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(name),
+                layout: Some(&pipeline_layout),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some(vertex),
+                    compilation_options: compilation_options.clone(),
+                    buffers: &[],
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: depth_stencil.clone(),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: fragment.map(|fragment| wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some(fragment),
+                    compilation_options,
+                    targets: targets.as_slice(),
+                }),
+                multiview_mask: None,
+                cache: None,
+            }))
         };
-        let pipelines = plan.pipelines.iter().filter_map(pipeline).collect();
-        Self { description, layout, pipelines }
+        let pipelines = planned.pipelines.iter().filter_map(pipeline).collect();
+        Self { description, planned, layout, pipelines }
+    }
+
+    /// Whether a light with this plan can use it.
+    pub fn fits(&self, description: &MapPass, plan: &FramePlan) -> bool {
+        self.pass() == description.pass && self.planned == Planned::new(description, plan)
     }
 
     pub fn pass(&self) -> Pass {
@@ -93,21 +126,21 @@ impl MapPipeline {
     pub fn bind(
         &self,
         device: &wgpu::Device,
-        buffers: &Buffers,
+        bindings: &Bindings<'_>,
         textures: &Textures,
         page_count: usize,
     ) -> Vec<wgpu::BindGroup> {
         let kinds = bound_buffers(self.pass());
         let bind = |page: usize, read: Option<&wgpu::TextureView>| {
             let texture = read.map(|view| (kinds.len() as u32, view));
-            buffers.bind(device, self.pass().name(), &self.layout, (&kinds, page), texture)
+            bindings.bind(device, self.pass().name(), &self.layout, (&kinds, page), texture)
         };
         let reads: Vec<_> = match (self.description.levels, self.description.reads) {
             (Levels::AllButFirst, Some(kind)) => {
-                let levels = textures.levels(kind);
+                let levels = textures.levels(kind, bindings.view);
                 levels[..levels.len() - 1].iter().map(Some).collect()
             }
-            (_, read) => vec![read.map(|kind| textures.view(kind))],
+            (_, read) => vec![read.map(|kind| &textures.levels(kind, bindings.view)[0])],
         };
         let pages = 0..self.drawn_pages(page_count);
         reads.iter().flat_map(|read| pages.clone().map(|page| bind(page, *read))).collect()
@@ -119,20 +152,14 @@ impl MapPipeline {
         encoder: &mut wgpu::CommandEncoder,
         bind_groups: &[wgpu::BindGroup],
         (buffers, textures): (&Buffers, &Textures),
-        (pages, view): (&[PagePlan], &LightView),
+        drawn: &DrawnView<'_>,
         timer: &mut T,
     ) {
         let first_level = if self.description.levels == Levels::First { 0 } else { 1 };
-        for (bind_groups, level) in bind_groups.chunks(self.drawn_pages(pages.len())).zip(first_level..) {
+        for (bind_groups, level) in bind_groups.chunks(self.drawn_pages(drawn.pages.len())).zip(first_level..) {
             let query = timer.begin(self.description.pass.name(), encoder);
-            self.encode_level(
-                encoder,
-                bind_groups,
-                level,
-                (buffers, textures),
-                (pages, view),
-                T::render_writes(&query),
-            );
+            let writes = T::render_writes(&query);
+            self.encode_level(encoder, bind_groups, level, (buffers, textures), drawn, writes);
             timer.end(query, encoder);
         }
     }
@@ -143,19 +170,19 @@ impl MapPipeline {
         bind_groups: &[wgpu::BindGroup],
         level: usize,
         (buffers, textures): (&Buffers, &Textures),
-        (pages, view): (&[PagePlan], &LightView),
+        drawn: &DrawnView<'_>,
         timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         let color = self.description.color.map(|target| {
             Some(wgpu::RenderPassColorAttachment {
-                view: &textures.levels(target.texture)[level],
+                view: &textures.levels(target.texture, drawn.view)[level],
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: load_color(target.clear, view), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations { load: load_color(target.clear, drawn.record), store: wgpu::StoreOp::Store },
             })
         });
         let depth = self.description.depth.map(|target| wgpu::RenderPassDepthStencilAttachment {
-            view: textures.view(target.texture),
+            view: &textures.levels(target.texture, drawn.view)[0],
             depth_ops: Some(wgpu::Operations {
                 load: wgpu::LoadOp::Clear(1.0),
                 store: if target.is_kept { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard },
@@ -172,7 +199,7 @@ impl MapPipeline {
         });
         for (count, pipeline) in self.description.draws.iter().zip(&self.pipelines) {
             pass.set_pipeline(pipeline);
-            for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
+            for ((page, bind_group), index) in drawn.pages.iter().zip(bind_groups).zip(0..) {
                 pass.set_bind_group(0, bind_group, &[]);
                 match *count {
                     DrawCount::FullScreen => pass.draw(0..3, 0..1),

@@ -14,9 +14,6 @@ const SLOTS: usize = 3;
 /// Bytes of one page's counters.
 const PAGE_BYTES: u64 = size_of::<Counters>() as u64;
 
-/// Bytes of all slots with room for one page.
-pub(crate) const READBACK_BYTES: u64 = SLOTS as u64 * PAGE_BYTES;
-
 /// A ring of small buffers that the counters are copied to and mapped by the submission that fills them.
 #[derive(Debug)]
 pub(crate) struct CounterReadback {
@@ -27,10 +24,10 @@ pub(crate) struct CounterReadback {
 #[derive(Debug)]
 struct Slot {
     buffer: wgpu::Buffer,
-    /// Pages that the buffer has room for.
+    /// Pages of all views that the buffer has room for.
     room: usize,
     state: Arc<AtomicU8>,
-    /// Room that the counted frame had, page by page.
+    /// Room that the counted frame had, view by view and page by page.
     capacities: Vec<Capacity>,
     /// The counted frame's place among all.
     frame: u64,
@@ -47,6 +44,13 @@ impl Drop for Ticket {
     fn drop(&mut self) {
         let _ = self.0.compare_exchange(UNDER_WAY, FREE, Ordering::AcqRel, Ordering::Acquire);
     }
+}
+
+/// A frame whose counters are copied.
+#[derive(Debug)]
+pub(crate) struct Copying<'a> {
+    slot: &'a mut Slot,
+    offset: u64,
 }
 
 /// Counters of a page, and the room that it had.
@@ -83,31 +87,17 @@ impl CounterReadback {
         }
     }
 
-    /// Records the copy of a frame's counters, page by page, if a slot with room for them is free.
-    pub fn copy<'a>(
-        &mut self,
-        encoder: &mut wgpu::CommandEncoder,
-        counters: impl Iterator<Item = &'a wgpu::Buffer>,
-        capacities: Vec<Capacity>,
-    ) {
+    /// Begins to copy the counters of a frame whose pages have this room, view by view, if a slot for so many is free.
+    pub fn begin(&mut self, capacities: Vec<Capacity>) -> Option<Copying<'_>> {
         let has_room = |slot: &&mut Slot| slot.is_free() && slot.room >= capacities.len();
-        let Some(slot) = self.slots.iter_mut().find(has_room) else { return };
+        let slot = self.slots.iter_mut().find(has_room)?;
         slot.capacities = capacities;
         slot.frame = self.next_frame;
         self.next_frame += 1;
-        slot.state.store(UNDER_WAY, Ordering::Release);
-        let ticket = Ticket(Arc::clone(&slot.state));
-        for (page, offset) in counters.zip((0..).step_by(PAGE_BYTES as usize)) {
-            encoder.copy_buffer_to_buffer(page, 0, &slot.buffer, offset, PAGE_BYTES);
-        }
-        encoder.map_buffer_on_submit(&slot.buffer, wgpu::MapMode::Read, .., move |result| {
-            if result.is_ok() {
-                ticket.0.store(MAPPED, Ordering::Release);
-            }
-        });
+        Some(Copying { slot, offset: 0 })
     }
 
-    /// Takes what has arrived, oldest frame first; of each frame its pages.
+    /// Takes what has arrived, oldest frame first; of each frame the pages of its views.
     pub fn arrived(&mut self) -> Vec<Vec<CountedPage>> {
         self.slots.sort_by_key(|slot| slot.frame);
         let mut frames = Vec::new();
@@ -126,6 +116,27 @@ impl CounterReadback {
     /// Whether counters of an encoded frame are still under way.
     pub fn is_pending(&self) -> bool {
         self.slots.iter().any(|slot| slot.state.load(Ordering::Acquire) == UNDER_WAY)
+    }
+}
+
+impl Copying<'_> {
+    /// Records the copies of a view's counters, page by page.
+    pub fn copy<'a>(&mut self, encoder: &mut wgpu::CommandEncoder, counters: impl Iterator<Item = &'a wgpu::Buffer>) {
+        for page in counters {
+            encoder.copy_buffer_to_buffer(page, 0, &self.slot.buffer, self.offset, PAGE_BYTES);
+            self.offset += PAGE_BYTES;
+        }
+    }
+
+    /// Sends them back.
+    pub fn finish(self, encoder: &mut wgpu::CommandEncoder) {
+        self.slot.state.store(UNDER_WAY, Ordering::Release);
+        let ticket = Ticket(Arc::clone(&self.slot.state));
+        encoder.map_buffer_on_submit(&self.slot.buffer, wgpu::MapMode::Read, .., move |result| {
+            if result.is_ok() {
+                ticket.0.store(MAPPED, Ordering::Release);
+            }
+        });
     }
 }
 

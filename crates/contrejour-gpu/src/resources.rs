@@ -1,8 +1,8 @@
-//! Buffers and textures of a light view, made exactly as the frame plan lists them.
+//! Buffers and textures, made exactly as frame plans list them.
 
 use std::collections::BTreeMap;
 
-use contrejour_plan::{BufferKind, FramePlan, TextureFormat, TextureKind, TexturePlan};
+use contrejour_plan::{BufferKind, BufferPlan, FramePlan, TextureFormat, TextureKind, TexturePlan};
 
 /// A texture that shaders load from without a sampler.
 pub(crate) const UNFILTERED_FLOAT: wgpu::BindingType = wgpu::BindingType::Texture {
@@ -11,31 +11,48 @@ pub(crate) const UNFILTERED_FLOAT: wgpu::BindingType = wgpu::BindingType::Textur
     multisampled: false,
 };
 
-/// A texture that shaders look up through a weighing sampler.
-pub(crate) const FILTERED_FLOAT: wgpu::BindingType = wgpu::BindingType::Texture {
-    sample_type: wgpu::TextureSampleType::Float { filterable: true },
-    view_dimension: wgpu::TextureViewDimension::D2,
+/// The same in layers, one for each view.
+pub(crate) const UNFILTERED_LAYERS: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    view_dimension: wgpu::TextureViewDimension::D2Array,
     multisampled: false,
 };
 
-/// A hardware depth buffer.
+/// Layers that shaders look up through a weighing sampler.
+pub(crate) const FILTERED_LAYERS: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: true },
+    view_dimension: wgpu::TextureViewDimension::D2Array,
+    multisampled: false,
+};
+
+/// Layers of hardware depth.
+pub(crate) const DEPTH_LAYERS: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Depth,
+    view_dimension: wgpu::TextureViewDimension::D2Array,
+    multisampled: false,
+};
+
+/// A hardware depth buffer of the eye's.
 pub(crate) const DEPTH: wgpu::BindingType = wgpu::BindingType::Texture {
     sample_type: wgpu::TextureSampleType::Depth,
     view_dimension: wgpu::TextureViewDimension::D2,
     multisampled: false,
 };
 
-/// The buffers that the plan lists, by kind and page.
+/// Buffers that a plan lists, by kind and page.
 #[derive(Debug, Default)]
 pub(crate) struct Buffers {
     by_place: BTreeMap<(BufferKind, usize), wgpu::Buffer>,
 }
 
 impl Buffers {
-    /// Makes what the plan lists and does not exist in that size, drops what it does not list; returns what was made.
-    pub fn follow(&mut self, device: &wgpu::Device, plan: &FramePlan) -> Vec<(BufferKind, usize)> {
-        let listed: BTreeMap<_, _> =
-            plan.buffers.iter().map(|listed| ((listed.kind, listed.page), listed.bytes)).collect();
+    /// Makes what is listed and does not exist in that size, drops what is not listed; returns what was made.
+    pub fn follow<'a>(
+        &mut self,
+        device: &wgpu::Device,
+        listed: impl Iterator<Item = &'a BufferPlan>,
+    ) -> Vec<(BufferKind, usize)> {
+        let listed: BTreeMap<_, _> = listed.map(|listed| ((listed.kind, listed.page), listed.bytes)).collect();
         self.by_place.retain(|place, buffer| listed.get(place) == Some(&buffer.size()));
         let mut made = Vec::new();
         for (place, bytes) in listed {
@@ -73,7 +90,18 @@ impl Buffers {
             None => panic!("the frame plan lists no buffer `{}` for a stage that binds it", kind.name()),
         }
     }
+}
 
+/// Where the bindings of a view lie: pools and lists that all lights share, and what its light has of its own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bindings<'a> {
+    pub shared: &'a Buffers,
+    pub of_light: &'a Buffers,
+    /// Index of the view among those of the light.
+    pub view: usize,
+}
+
+impl Bindings<'_> {
     /// A bind group of a page's buffers in the order of their bindings, and a texture.
     pub fn bind(
         &self,
@@ -83,16 +111,29 @@ impl Buffers {
         (kinds, page): (&[BufferKind], usize),
         texture: Option<(u32, &wgpu::TextureView)>,
     ) -> wgpu::BindGroup {
-        let buffers = kinds.iter().zip(0..).map(|(kind, binding)| wgpu::BindGroupEntry {
-            binding,
-            resource: self.get(*kind, page).as_entire_binding(),
-        });
+        let buffers = kinds
+            .iter()
+            .zip(0..)
+            .map(|(kind, binding)| wgpu::BindGroupEntry { binding, resource: self.resource(*kind, page) });
         let textures = texture.map(|(binding, view)| wgpu::BindGroupEntry {
             binding,
             resource: wgpu::BindingResource::TextureView(view),
         });
         let entries: Vec<_> = buffers.chain(textures).collect();
         device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+    }
+
+    fn resource(&self, kind: BufferKind, page: usize) -> wgpu::BindingResource<'_> {
+        if kind != BufferKind::LightView {
+            return self.shared.get(kind, page).as_entire_binding();
+        }
+        // Records of views are as far apart as uniforms must be.
+        let size = kind.item_bytes();
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: self.of_light.get(kind, page),
+            offset: self.view as u64 * size,
+            size: wgpu::BufferSize::new(size),
+        })
     }
 }
 
@@ -132,7 +173,7 @@ fn usage(kind: BufferKind) -> wgpu::BufferUsages {
         }
 }
 
-/// The textures that the plan lists.
+/// The textures that a light's plan lists.
 #[derive(Debug, Default)]
 pub(crate) struct Textures {
     by_kind: BTreeMap<TextureKind, Map>,
@@ -142,15 +183,17 @@ pub(crate) struct Textures {
 #[derive(Debug)]
 struct Map {
     texture: wgpu::Texture,
+    /// All layers and levels.
     whole: wgpu::TextureView,
-    levels: Vec<wgpu::TextureView>,
+    /// Each level of each layer.
+    levels: Vec<Vec<wgpu::TextureView>>,
 }
 
 impl Map {
     fn new(device: &wgpu::Device, listed: &TexturePlan) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some(listed.kind.name()),
-            size: wgpu::Extent3d { width: listed.size, height: listed.size, depth_or_array_layers: 1 },
+            size: wgpu::Extent3d { width: listed.size, height: listed.size, depth_or_array_layers: listed.layers },
             mip_level_count: listed.levels,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -160,17 +203,27 @@ impl Map {
                 | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
-        let level = |level| wgpu::TextureViewDescriptor {
+        let part = |layer, level| wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
             base_mip_level: level,
             mip_level_count: Some(1),
             ..Default::default()
         };
-        let levels = (0..listed.levels).map(|index| texture.create_view(&level(index))).collect();
-        Self { whole: texture.create_view(&wgpu::TextureViewDescriptor::default()), levels, texture }
+        let levels = |layer| (0..listed.levels).map(|level| texture.create_view(&part(layer, level))).collect();
+        let levels = (0..listed.layers).map(levels).collect();
+        let whole =
+            wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() };
+        Self { whole: texture.create_view(&whole), levels, texture }
     }
 
     fn is(&self, listed: &TexturePlan) -> bool {
-        self.texture.width() == listed.size && self.texture.format() == format(listed.format)
+        let Self { texture, .. } = self;
+        texture.width() == listed.size
+            && texture.format() == format(listed.format)
+            && texture.depth_or_array_layers() == listed.layers
+            && texture.mip_level_count() == listed.levels
     }
 }
 
@@ -194,22 +247,23 @@ impl Textures {
         self.by_kind.get(&kind).map(|map| &map.texture)
     }
 
-    /// The whole of a texture that the plan lists, since it lists a pass that uses it.
+    /// All layers of a texture that the plan lists, since it lists a pass that uses it.
     ///
     /// # Panics
     ///
     /// When the plan lists a pass without its textures: a defect of the plan, which its tests rule out.
-    pub fn view(&self, kind: TextureKind) -> &wgpu::TextureView {
+    pub fn whole(&self, kind: TextureKind) -> &wgpu::TextureView {
         &self.get(kind).whole
     }
 
-    /// Each level of a texture that the plan lists.
+    /// Each level of the layer of a view, or of the one layer that serves all views.
     ///
     /// # Panics
     ///
-    /// As [`view`](Self::view).
-    pub fn levels(&self, kind: TextureKind) -> &[wgpu::TextureView] {
-        &self.get(kind).levels
+    /// As [`whole`](Self::whole).
+    pub fn levels(&self, kind: TextureKind, view: usize) -> &[wgpu::TextureView] {
+        let layers = &self.get(kind).levels;
+        &layers[view.min(layers.len() - 1)]
     }
 
     fn get(&self, kind: TextureKind) -> &Map {

@@ -2,13 +2,13 @@
 //! for deferred ones.
 
 use contrejour_layout::EyeView;
-use contrejour_plan::{BufferKind, MapSampler, TextureKind, VisibilityKind};
+use contrejour_plan::{BufferKind, MapSampler, TextureKind, ViewChoice, VisibilityKind};
 
-use crate::resources::{Buffers, DEPTH, FILTERED_FLOAT, Textures, UNFILTERED_FLOAT};
+use crate::resources::{Buffers, DEPTH, DEPTH_LAYERS, FILTERED_LAYERS, Textures, UNFILTERED_LAYERS};
 use crate::timer::PassTimer;
 use crate::visibility_wgsl::pass_wgsl;
 
-/// The layout of a kind's bind group: the receiver view, the maps, a sampler.
+/// The layout of a kind's bind group: the receiver views, the maps, a sampler.
 fn layout(device: &wgpu::Device, kind: VisibilityKind) -> wgpu::BindGroupLayout {
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
@@ -17,10 +17,10 @@ fn layout(device: &wgpu::Device, kind: VisibilityKind) -> wgpu::BindGroupLayout 
         count: None,
     };
     let maps = kind.textures().iter().map(|map| match map {
-        TextureKind::ShadowHardwareDepth | TextureKind::SmoothieDepth => DEPTH,
+        TextureKind::ShadowHardwareDepth | TextureKind::SmoothieDepth => DEPTH_LAYERS,
         // Moments are of a format that the device's samplers weigh: the plan chose it so.
-        TextureKind::Moments => FILTERED_FLOAT,
-        _ => UNFILTERED_FLOAT,
+        TextureKind::Moments => FILTERED_LAYERS,
+        _ => UNFILTERED_LAYERS,
     });
     let sampler = kind.sampler().map(|sampler| {
         wgpu::BindingType::Sampler(match sampler {
@@ -44,7 +44,7 @@ fn bind(
     (buffers, textures): (&Buffers, &Textures),
 ) -> wgpu::BindGroup {
     let view = buffers.get(BufferKind::ReceiverView, 0).as_entire_binding();
-    let maps = kind.textures().iter().map(|map| wgpu::BindingResource::TextureView(textures.view(*map)));
+    let maps = kind.textures().iter().map(|map| wgpu::BindingResource::TextureView(textures.whole(*map)));
     let sampler = sampler.map(wgpu::BindingResource::Sampler);
     let resources = std::iter::once(view).chain(maps).chain(sampler);
     let entries: Vec<_> =
@@ -82,6 +82,7 @@ fn create_sampler(device: &wgpu::Device, sampler: MapSampler) -> wgpu::Sampler {
 #[derive(Debug)]
 pub(crate) struct Visibility {
     pub kind: VisibilityKind,
+    pub choice: ViewChoice,
     pub layout: wgpu::BindGroupLayout,
     pub bind_group: wgpu::BindGroup,
     sampler: Option<wgpu::Sampler>,
@@ -89,11 +90,17 @@ pub(crate) struct Visibility {
 }
 
 impl Visibility {
-    pub fn new(device: &wgpu::Device, kind: VisibilityKind, buffers: &Buffers, textures: &Textures) -> Self {
+    pub fn new(
+        device: &wgpu::Device,
+        kind: VisibilityKind,
+        choice: ViewChoice,
+        buffers: &Buffers,
+        textures: &Textures,
+    ) -> Self {
         let layout = layout(device, kind);
         let sampler = kind.sampler().map(|sampler| create_sampler(device, sampler));
         let bind_group = bind(device, kind, &layout, sampler.as_ref(), (buffers, textures));
-        Self { kind, layout, bind_group, sampler, pass: None }
+        Self { kind, choice, layout, bind_group, sampler, pass: None }
     }
 
     /// Binds maps that were made anew.
@@ -103,7 +110,8 @@ impl Visibility {
 
     /// The full-screen pass, made when it is first used.
     pub fn pass(&mut self, device: &wgpu::Device, format: wgpu::TextureFormat) -> (&VisibilityPass, &wgpu::BindGroup) {
-        let pass = self.pass.get_or_insert_with(|| VisibilityPass::new(device, self.kind, &self.layout, format));
+        let new = || VisibilityPass::new(device, self.kind, self.choice, &self.layout, format);
+        let pass = self.pass.get_or_insert_with(new);
         (pass, &self.bind_group)
     }
 
@@ -145,6 +153,7 @@ impl VisibilityPass {
     pub fn new(
         device: &wgpu::Device,
         kind: VisibilityKind,
+        choice: ViewChoice,
         visibility_layout: &wgpu::BindGroupLayout,
         format: wgpu::TextureFormat,
     ) -> Self {
@@ -167,7 +176,7 @@ impl VisibilityPass {
         });
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label,
-            source: wgpu::ShaderSource::Wgsl(pass_wgsl(kind).into()),
+            source: wgpu::ShaderSource::Wgsl(pass_wgsl(kind, choice).into()),
         });
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label,

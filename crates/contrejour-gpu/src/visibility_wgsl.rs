@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use contrejour_plan::VisibilityKind;
+use contrejour_plan::{ViewChoice, VisibilityKind};
 
 use crate::wgsl::wgsl;
 
@@ -22,12 +22,15 @@ const EVSM_PCSS: &str = function!("visibility_moments_pcss", "blocker_search", "
 const SMOOTHIES_SPLIT: &str = function!("visibility_smoothies", "receiver_texels", "smoothie_split");
 const SMOOTHIES_PACKED: &str = function!("visibility_smoothies", "receiver_texels", "smoothie_packed");
 
+const ONLY_VIEW: &str = wgsl!("shared/receiver_view_only");
+const CUBE_VIEWS: &str = wgsl!("shared/receiver_view_of_cube");
+
 const PASS: &str = wgsl!("raster/visibility", "eye", "full_screen");
 
 /// The function `contrejour_visibility` of a kind, with its bindings in a bind group: what
-/// [`Shadows::visibility_wgsl`](crate::Shadows::visibility_wgsl) gives for the kind that a frame has.
-pub fn visibility_wgsl(kind: VisibilityKind, group: u32) -> String {
-    let mut text = format!("const CONTREJOUR_GROUP = {group}u;\n");
+/// [`Shadows::visibility_wgsl`](crate::Shadows::visibility_wgsl) gives for the kind that a light has.
+pub fn visibility_wgsl(kind: VisibilityKind, choice: ViewChoice, group: u32) -> String {
+    let mut text = format!("const CONTREJOUR_GROUP = {group}u;\nconst CONTREJOUR_VIEWS = {}u;\n", choice.views());
     text.push_str(&constants(kind));
     text.push_str(match kind {
         VisibilityKind::Compared(_) => COMPARED,
@@ -41,12 +44,16 @@ pub fn visibility_wgsl(kind: VisibilityKind, group: u32) -> String {
         VisibilityKind::SmoothiesSplit => SMOOTHIES_SPLIT,
         VisibilityKind::SmoothiesPacked => SMOOTHIES_PACKED,
     });
+    text.push_str(match choice {
+        ViewChoice::Only => ONLY_VIEW,
+        ViewChoice::CubeFace => CUBE_VIEWS,
+    });
     text
 }
 
 /// The full-screen pass with the function of a kind.
-pub(crate) fn pass_wgsl(kind: VisibilityKind) -> String {
-    format!("{PASS}\n{}", visibility_wgsl(kind, VISIBILITY_GROUP))
+pub(crate) fn pass_wgsl(kind: VisibilityKind, choice: ViewChoice) -> String {
+    format!("{PASS}\n{}", visibility_wgsl(kind, choice, VISIBILITY_GROUP))
 }
 
 /// The bind group of the light's maps in the full-screen pass.

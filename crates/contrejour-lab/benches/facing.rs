@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, PassTimer, Positions, ShadowOptions, Shadows};
+use contrejour_gpu::{CasterInput, LightHandle, PassTimer, Positions, ShadowOptions, Shadows};
 use contrejour_lab::{Triangles, torus};
 use contrejour_layout::Counters;
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, load};
@@ -116,23 +116,29 @@ struct Stages {
     device: wgpu::Device,
     queue: wgpu::Queue,
     shadows: Shadows,
-    mesh: MeshHandle,
+    light: Option<LightHandle>,
 }
 
 impl Stages {
     fn new(gpu: &Gpu, mesh: &Triangles) -> Self {
-        let options = ShadowOptions { outputs: Outputs::Silhouettes, ..ShadowOptions::default() };
-        let mut shadows = Shadows::new(&gpu.device, &options).expect("the options are good");
+        let mut shadows = Shadows::new(&gpu.device).expect("the device is good");
         let mesh = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default());
         let mesh = shadows.add_mesh(Arc::new(mesh.expect("the mesh has a topology"))).expect("the mesh fits");
-        Self { device: gpu.device.clone(), queue: gpu.queue.clone(), shadows, mesh }
+        let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
+        shadows.add_caster(&caster).expect("the mesh is there");
+        Self { device: gpu.device.clone(), queue: gpu.queue.clone(), shadows, light: None }
     }
 
     fn prepare(&mut self, light: &Light) {
-        let casters =
-            [CasterInput { mesh: self.mesh, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh }];
-        let frame = FrameInput { light, casters: &casters };
-        self.shadows.prepare(&self.device, &self.queue, &frame).expect("the frame can be prepared");
+        match self.light {
+            Some(handle) => self.shadows.set_light(handle, light).expect("the light is good"),
+            None => {
+                let options = ShadowOptions { outputs: Outputs::Silhouettes, ..ShadowOptions::default() };
+                let handle = self.shadows.add_light(&self.device, light, &options);
+                self.light = Some(handle.expect("the light is good"));
+            }
+        }
+        self.shadows.prepare(&self.device, &self.queue).expect("the frame can be prepared");
     }
 
     /// Time of the stages before the one of this name, and what the frame counted.

@@ -79,7 +79,7 @@ shared_struct! {
         /// 1 where casters outside the frustum are left out, else 0.
         culls_casters: u32,
         /// How far outside the frustum's sides a caster still matters, in NDC: smoothie width and filter texels.
-        guard_ndc: f32,
+        reach_ndc: f32,
         /// The homogeneous light in the world: x, y, z, w as 64-bit floats, two to a row, each its low word first.
         light_world: [[u32; 4]; 2],
         /// Light clip space from the world, column by column, as 64-bit floats.

@@ -133,7 +133,7 @@ fn may_be_seen(view: &LightView, place: &CasterPlace, matrix: &Columns) -> bool 
     if view.culls_casters == 0 || place.casts != CASTER_IN_VIEW {
         return true;
     }
-    let side = 1.0 + view.guard_ndc;
+    let side = 1.0 + view.reach_ndc;
     let planes = [
         [1.0, 0.0, 0.0, side],
         [-1.0, 0.0, 0.0, side],

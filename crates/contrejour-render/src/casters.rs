@@ -5,8 +5,8 @@ use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 use contrejour_gpu::{
-    AddMeshError, CasterInput, CountersError, FrameInput, MeshHandle, NewShadowsError, Positions, PrepareError,
-    ShadowOptions, Shadows,
+    AddMeshError, CasterError, CasterInput, CountersError, LightHandle, NewShadowsError, Positions, PrepareError,
+    ShadowLightError, ShadowOptions, Shadows,
 };
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError, TriangleMesh};
 use contrejour_plan::Light;
@@ -45,19 +45,36 @@ pub struct CasterTopologyError {
 /// Why the shadows of a scene cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum CastShadowsError {
-    /// The shadow settings or the device do not allow shadows.
+    /// The device does not allow shadows.
     #[error(transparent)]
     Shadows(#[from] NewShadowsError),
+    /// The light is no light, or the shadow settings are out of range.
+    #[error(transparent)]
+    Light(#[from] ShadowLightError),
     /// A mesh that casts does not fit.
     #[error(transparent)]
     AddMesh(#[from] AddMeshError),
+    /// A caster does not fit its mesh.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
 }
 
-/// The library's object with all casters of a scene; its world is our local space.
+/// Why a frame of shadows cannot be prepared.
+#[derive(Debug, thiserror::Error)]
+pub enum PrepareShadowsError {
+    /// The light is no light.
+    #[error(transparent)]
+    Light(#[from] ShadowLightError),
+    /// The device does not allow the frame.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+}
+
+/// The library's object with all casters and the light of a scene; its world is our local space.
 #[derive(Debug)]
 pub(crate) struct CastShadows {
     pub shadows: Shadows,
-    handles: Vec<MeshHandle>,
+    pub light: LightHandle,
 }
 
 impl Casters {
@@ -97,23 +114,30 @@ impl Casters {
 }
 
 impl CastShadows {
-    pub fn new(gpu: &Gpu, casters: &Casters, options: &ShadowOptions) -> Result<Self, CastShadowsError> {
-        let mut shadows = Shadows::new(&gpu.device, options)?;
-        let handles = casters.topologies.iter().map(|topology| shadows.add_mesh(Arc::clone(topology)));
-        let handles = handles.collect::<Result<_, _>>()?;
-        Ok(Self { shadows, handles })
-    }
-
-    /// Prepares a frame of the casters that it was made with.
-    pub fn prepare(&mut self, gpu: &Gpu, casters: &Casters, light_local: &Light) -> Result<(), PrepareError> {
-        let casters: Vec<CasterInput<'_>> = (casters.placed.iter())
-            .map(|caster| CasterInput {
-                mesh: self.handles[caster.mesh],
+    pub fn new(
+        gpu: &Gpu,
+        casters: &Casters,
+        light_local: &Light,
+        options: &ShadowOptions,
+    ) -> Result<Self, CastShadowsError> {
+        let mut shadows = Shadows::new(&gpu.device)?;
+        let meshes = casters.topologies.iter().map(|topology| shadows.add_mesh(Arc::clone(topology)));
+        let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
+        for caster in &casters.placed {
+            shadows.add_caster(&CasterInput {
+                mesh: meshes[caster.mesh],
                 world_from_object: caster.local_from_object,
                 positions: Positions::OfMesh,
-            })
-            .collect();
-        self.shadows.prepare(&gpu.device, &gpu.queue, &FrameInput { light: light_local, casters: &casters })
+            })?;
+        }
+        let light = shadows.add_light(&gpu.device, light_local, options)?;
+        Ok(Self { shadows, light })
+    }
+
+    /// Prepares a frame with the light like this.
+    pub fn prepare(&mut self, gpu: &Gpu, light_local: &Light) -> Result<(), PrepareShadowsError> {
+        self.shadows.set_light(self.light, light_local)?;
+        Ok(self.shadows.prepare(&gpu.device, &gpu.queue)?)
     }
 
     /// Waits for the submitted frames; returns whether the last one had room for everything.

@@ -1,8 +1,8 @@
 //! What can go wrong with a scene or a frame.
 
-use contrejour_gpu::{CountersError, PrepareError};
+use contrejour_gpu::CountersError;
 
-use crate::casters::{CastShadowsError, CasterTopologyError};
+use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 use crate::gpu::DeviceFault;
 use crate::readback::ReadError;
 use crate::scene_meshes::MeshTooLarge;
@@ -29,7 +29,7 @@ pub enum NewRendererError {
     Shadows(#[from] CastShadowsError),
     /// The scene's light or the device does not allow its shadow.
     #[error(transparent)]
-    Prepare(#[from] PrepareError),
+    Prepare(#[from] PrepareShadowsError),
     /// The timestamps cannot be set up.
     #[error("the graphics device's timestamps cannot be used")]
     Timer(#[from] wgpu_profiler::CreationError),
@@ -43,7 +43,7 @@ pub enum NewRendererError {
 pub enum DrawError {
     /// The light or the device does not allow this frame.
     #[error(transparent)]
-    Prepare(#[from] PrepareError),
+    Prepare(#[from] PrepareShadowsError),
     /// The counters did not come back.
     #[error(transparent)]
     Counters(#[from] CountersError),

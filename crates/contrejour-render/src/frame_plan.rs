@@ -3,7 +3,7 @@
 use contrejour_gpu::{mesh_facts, mesh_pieces};
 use contrejour_plan::{
     Capacity, CasterFacts, DeviceFacts, FramePlan, LightError, ObjectBox, Outputs, PlanError, PlanInput, SceneFacts,
-    ShadowSettings, views,
+    ShadowSettings, guard_ndc, views_with_guard,
 };
 use contrejour_scene::Scene;
 
@@ -31,16 +31,16 @@ pub enum FramePlanError {
 /// [`FramePlanError`] when the scene or the device does not allow a frame.
 pub fn frame_plan(scene: &Scene, settings: &ShadowSettings, device: &DeviceFacts) -> Result<FramePlan, FramePlanError> {
     let local = LocalSpace::around(&scene.camera);
-    // A spot and a directional light have one view each.
-    let view = views(&local.light(&scene.light))?.remove(0);
+    let light = local.light(&scene.light);
+    let views = views_with_guard(&light, guard_ndc(&light, settings))?;
     let casters = Casters::new(scene, &local)?;
     let facts = SceneFacts {
         meshes: casters.topologies.iter().map(|topology| mesh_facts(topology)).collect(),
         pieces: (casters.topologies.iter().enumerate())
             .flat_map(|(mesh, topology)| mesh_pieces(topology, mesh, device))
             .collect(),
-        casters: (casters.placed.iter())
-            .map(|caster| {
+        casters: (casters.placed.iter().enumerate())
+            .map(|(slot, caster)| {
                 let topology = casters.topology(caster);
                 let bounds = ObjectBox {
                     min: topology.bounds_min,
@@ -48,6 +48,7 @@ pub fn frame_plan(scene: &Scene, settings: &ShadowSettings, device: &DeviceFacts
                     world_from_object: caster.local_from_object,
                 };
                 CasterFacts {
+                    slot,
                     name: caster.name.clone(),
                     mesh: caster.mesh,
                     bounds: Some(bounds),
@@ -58,5 +59,5 @@ pub fn frame_plan(scene: &Scene, settings: &ShadowSettings, device: &DeviceFacts
         receivers: scene.meshes.iter().filter(|placed| !placed.casts).map(|placed| placed.name.clone()).collect(),
     };
     let (outputs, capacity) = (Outputs::Maps, Capacity::default());
-    Ok(FramePlan::new(&PlanInput { scene: &facts, view: &view, settings, device, outputs, capacity })?)
+    Ok(FramePlan::new(&PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared: &[] })?)
 }

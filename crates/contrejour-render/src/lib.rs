@@ -31,7 +31,7 @@ mod stage_timer;
 mod targets;
 mod views;
 
-pub use casters::{CastShadowsError, CasterTopologyError};
+pub use casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 pub use error::{DrawError, NewRendererError};
 pub use frame_plan::{FramePlanError, frame_plan};
 pub use gpu::{DeviceFault, Gpu, OpenGpuError};

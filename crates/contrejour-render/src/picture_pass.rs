@@ -1,8 +1,9 @@
 //! The pass that draws the scene from the eye.
 
-use contrejour_gpu::{Shadows, VisibilityKind};
+use contrejour_gpu::{ViewChoice, VisibilityKind};
 
 use crate::Gpu;
+use crate::casters::CastShadows;
 use crate::frame_uniforms::{FrameBinding, FrameUniforms};
 use crate::scene_meshes::{SceneMeshes, surface_layout};
 use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, scene_pipeline};
@@ -29,10 +30,15 @@ impl Shading {
     }
 }
 
+/// What shapes the shader of a pass that asks for visibility.
+pub(crate) fn kind_of(cast: &CastShadows) -> (VisibilityKind, ViewChoice) {
+    (cast.shadows.visibility_kind(cast.light), cast.shadows.view_choice(cast.light))
+}
+
 /// Bind groups and shader of the pass, for one kind of visibility.
 #[derive(Debug)]
 pub(crate) struct PicturePass {
-    kind: VisibilityKind,
+    kind: (VisibilityKind, ViewChoice),
     module: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
     surface_layout: wgpu::BindGroupLayout,
@@ -41,9 +47,10 @@ pub(crate) struct PicturePass {
 
 impl PicturePass {
     /// The pass for shadows that were prepared.
-    pub fn new(gpu: &Gpu, shadows: &Shadows) -> Self {
+    pub fn new(gpu: &Gpu, cast: &CastShadows) -> Self {
+        let CastShadows { shadows, light } = cast;
         let device = &gpu.device;
-        let wgsl = format!("{SHADE}{}", shadows.visibility_wgsl(VISIBILITY_GROUP));
+        let wgsl = format!("{SHADE}{}", shadows.visibility_wgsl(*light, VISIBILITY_GROUP));
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("shade"),
             source: wgpu::ShaderSource::Wgsl(wgsl.into()),
@@ -52,15 +59,15 @@ impl PicturePass {
         let surface_layout = surface_layout(device);
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("shade"),
-            bind_group_layouts: &[Some(&frame.layout), Some(&surface_layout), Some(shadows.visibility_layout())],
+            bind_group_layouts: &[Some(&frame.layout), Some(&surface_layout), Some(shadows.visibility_layout(*light))],
             immediate_size: 0,
         });
-        Self { kind: shadows.visibility_kind(), module, layout, surface_layout, frame }
+        Self { kind: kind_of(cast), module, layout, surface_layout, frame }
     }
 
     /// Whether the pass looks up the maps that these shadows have.
-    pub fn fits(&self, shadows: &Shadows) -> bool {
-        self.kind == shadows.visibility_kind()
+    pub fn fits(&self, cast: &CastShadows) -> bool {
+        self.kind == kind_of(cast)
     }
 
     pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
@@ -81,12 +88,12 @@ impl PicturePass {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         pipeline: &wgpu::RenderPipeline,
-        shadows: &Shadows,
+        cast: &CastShadows,
         meshes: &SceneMeshes,
     ) {
         pass.set_pipeline(pipeline);
         pass.set_bind_group(FRAME_GROUP, &self.frame.bind_group, &[]);
-        pass.set_bind_group(VISIBILITY_GROUP, shadows.visibility_bind_group(), &[]);
+        pass.set_bind_group(VISIBILITY_GROUP, cast.shadows.visibility_bind_group(cast.light), &[]);
         meshes.draw(pass, SURFACE_GROUP);
     }
 }

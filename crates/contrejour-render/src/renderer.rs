@@ -60,10 +60,10 @@ impl Renderer {
         check_size(&gpu, scene.size)?;
         let local = LocalSpace::around(&scene.camera);
         let casters = Casters::new(scene, &local)?;
-        let mut cast = CastShadows::new(&gpu, &casters, options)?;
         let light_local = local.light(&scene.light);
-        cast.prepare(&gpu, &casters, &light_local)?;
-        let pass = PicturePass::new(&gpu, &cast.shadows);
+        let mut cast = CastShadows::new(&gpu, &casters, &light_local, options)?;
+        cast.prepare(&gpu, &light_local)?;
+        let pass = PicturePass::new(&gpu, &cast);
         let meshes = SceneMeshes::new(&gpu, scene, &local, pass.surface_layout())?;
         let lit_pipeline = pass.pipeline(&gpu, Shading::Lit);
         let targets = Targets::new(&gpu, scene.size);
@@ -99,10 +99,10 @@ impl Renderer {
         let clock = ThreadTime::now();
         self.light_local = self.local.light(light);
         self.uniforms = self.uniforms.with_light(&self.light_local);
-        self.cast.prepare(&self.gpu, &self.casters, &self.light_local)?;
-        if !self.pass.fits(&self.cast.shadows) {
+        self.cast.prepare(&self.gpu, &self.light_local)?;
+        if !self.pass.fits(&self.cast) {
             // The light gained or lost its size.
-            self.pass = PicturePass::new(&self.gpu, &self.cast.shadows);
+            self.pass = PicturePass::new(&self.gpu, &self.cast);
             self.lit_pipeline = self.pass.pipeline(&self.gpu, Shading::Lit);
         }
         let uniform_bytes = self.pass.upload(&self.gpu, &self.uniforms);
@@ -111,7 +111,7 @@ impl Renderer {
         let query = self.timer.begin("picture", &mut encoder);
         {
             let mut pass = self.targets.begin_pass(&mut encoder, self.background, StageTimer::render_writes(&query));
-            self.pass.draw(&mut pass, &self.lit_pipeline, &self.cast.shadows, &self.meshes);
+            self.pass.draw(&mut pass, &self.lit_pipeline, &self.cast, &self.meshes);
         }
         self.timer.end(query, &mut encoder);
         self.counter_log.record(&self.gpu, &self.cast.shadows, &mut encoder);

@@ -44,7 +44,7 @@ impl Renderer {
     }
 
     fn map_views(&self) -> Result<Vec<View>, ReadError> {
-        let maps = self.cast.shadows.maps();
+        let maps = self.cast.shadows.maps(self.cast.light);
         let mut views = Vec::new();
         let mut push = |name, MapView { picture, legend }| views.push(View { name, picture, legend });
         let texels = |map| read_texels(&self.gpu, map);
@@ -74,7 +74,7 @@ impl Renderer {
 
     /// Depth in local units that 1 stands for in maps of linear depth.
     fn depth_unit(&self) -> f32 {
-        let precision = self.cast.shadows.plan().map(|plan| plan.settings.depth_precision);
+        let precision = self.cast.shadows.plan(self.cast.light).map(|plan| plan.settings.depth_precision);
         if precision == Some(DepthPrecision::Bits16) { self.depth_range().1 as f32 } else { 1.0 }
     }
 
@@ -124,7 +124,7 @@ impl Renderer {
         let mut encoder = self.encoder();
         {
             let mut pass = self.targets.begin_pass(&mut encoder, background, None);
-            self.pass.draw(&mut pass, &pipeline, &self.cast.shadows, &self.meshes);
+            self.pass.draw(&mut pass, &pipeline, &self.cast, &self.meshes);
             if let Some(lines) = lines {
                 lines.draw(&mut pass);
             }

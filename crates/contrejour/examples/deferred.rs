@@ -15,18 +15,20 @@ use contrejour::wgpu;
 fn main() -> Outcome {
     let (device, queue) = common::open_device()?;
     let torus = Torus::new(96, 48);
-    let options = ShadowOptions { outputs: Outputs::VisibilityTexture, ..Default::default() };
-    let mut shadows = Shadows::new(&device, &options)?;
+    let mut shadows = Shadows::new(&device)?;
     let mesh = TopologyAwareMesh::build(&torus.positions, &torus.triangles, &BuildOptions::default())?;
     let mesh = shadows.add_mesh(Arc::new(mesh))?;
     // The floor too: a shadow hardens towards what is in the map.
     let floor = TopologyAwareMesh::build(&common::FLOOR, &[[0, 1, 2], [3, 4, 5]], &BuildOptions::default())?;
     let floor = shadows.add_mesh(Arc::new(floor))?;
 
-    let light = common::light();
     let body = CasterInput { mesh, world_from_object: common::world_from_body(), positions: Positions::OfMesh };
     let floor = CasterInput { mesh: floor, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
-    shadows.prepare(&device, &queue, &FrameInput { light: &light, casters: &[body, floor] })?;
+    shadows.add_caster(&body)?;
+    shadows.add_caster(&floor)?;
+    let options = ShadowOptions { outputs: Outputs::VisibilityTexture, ..Default::default() };
+    let light = shadows.add_light(&device, &common::light(), &options)?;
+    shadows.prepare(&device, &queue)?;
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);
 
@@ -41,7 +43,7 @@ fn main() -> Outcome {
         background_depth: 1.0,
         target: &visibility.create_view(&Default::default()),
     };
-    shadows.encode_visibility(&device, &queue, &mut encoder, &eye, &mut Untimed)?;
+    shadows.encode_visibility((&device, &queue), &mut encoder, light, &eye, &mut Untimed)?;
     queue.submit([encoder.finish()]);
     println!("{}", common::save(&device, &queue, &visibility, "contrejour-deferred.png")?.display());
     Ok(())

@@ -39,19 +39,21 @@ fn main() -> Outcome {
     let (device, queue) = common::open_device()?;
     let torus = Torus::new(96, 48);
 
-    // The shadows of one light: add what casts, once.
-    let mut shadows = Shadows::new(&device, &ShadowOptions::default())?;
+    // Once: add what casts, and a light.
+    let mut shadows = Shadows::new(&device)?;
     let mesh = TopologyAwareMesh::build(&torus.positions, &torus.triangles, &BuildOptions::default())?;
     let mesh = shadows.add_mesh(Arc::new(mesh))?;
     // The floor too: a shadow hardens towards what is in the map.
     let floor = TopologyAwareMesh::build(&common::FLOOR, &[[0, 1, 2], [3, 4, 5]], &BuildOptions::default())?;
     let floor = shadows.add_mesh(Arc::new(floor))?;
-
-    // Each frame: prepare, and record the maps before the pass that reads them.
-    let light = common::light();
     let body = CasterInput { mesh, world_from_object: common::world_from_body(), positions: Positions::OfMesh };
     let floor = CasterInput { mesh: floor, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
-    shadows.prepare(&device, &queue, &FrameInput { light: &light, casters: &[body, floor] })?;
+    shadows.add_caster(&body)?;
+    shadows.add_caster(&floor)?;
+    let light = shadows.add_light(&device, &common::light(), &ShadowOptions::default())?;
+
+    // Each frame: prepare, and record the maps before the pass that reads them.
+    shadows.prepare(&device, &queue)?;
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);
 
@@ -59,7 +61,7 @@ fn main() -> Outcome {
     let picture = common::target(&device, wgpu::TextureFormat::Rgba8UnormSrgb, wgpu::TextureUsages::COPY_SRC);
     let depth = common::target(&device, wgpu::TextureFormat::Depth32Float, wgpu::TextureUsages::empty());
     let (vertices, vertex_count) = common::scene_vertices(&device, &torus);
-    let pipeline = pipeline(&device, &shadows);
+    let pipeline = pipeline(&device, &shadows, light);
     let eye = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("eye"),
         layout: &pipeline.get_bind_group_layout(0),
@@ -85,7 +87,7 @@ fn main() -> Outcome {
         });
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &eye, &[]);
-        pass.set_bind_group(1, shadows.visibility_bind_group(), &[]);
+        pass.set_bind_group(1, shadows.visibility_bind_group(light), &[]);
         pass.set_vertex_buffer(0, vertices.slice(..));
         pass.draw(0..vertex_count, 0..1);
     }
@@ -94,10 +96,10 @@ fn main() -> Outcome {
     Ok(())
 }
 
-fn pipeline(device: &wgpu::Device, shadows: &Shadows) -> wgpu::RenderPipeline {
+fn pipeline(device: &wgpu::Device, shadows: &Shadows, light: LightHandle) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("forward"),
-        source: wgpu::ShaderSource::Wgsl(format!("{SHADER}\n{}", shadows.visibility_wgsl(1)).into()),
+        source: wgpu::ShaderSource::Wgsl(format!("{SHADER}\n{}", shadows.visibility_wgsl(light, 1)).into()),
     });
     let eye_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("eye"),
@@ -114,7 +116,7 @@ fn pipeline(device: &wgpu::Device, shadows: &Shadows) -> wgpu::RenderPipeline {
     });
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("forward"),
-        bind_group_layouts: &[Some(&eye_layout), Some(shadows.visibility_layout())],
+        bind_group_layouts: &[Some(&eye_layout), Some(shadows.visibility_layout(light))],
         immediate_size: 0,
     });
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

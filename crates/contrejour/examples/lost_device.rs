@@ -26,8 +26,7 @@ struct Renderer {
     device: wgpu::Device,
     queue: wgpu::Queue,
     shadows: Shadows,
-    body: MeshHandle,
-    floor: MeshHandle,
+    light: LightHandle,
     visibility: wgpu::Texture,
 }
 
@@ -64,18 +63,20 @@ impl Renderer {
     fn new(meshes: &Meshes) -> Result<Self, Box<dyn Error>> {
         let (device, queue) = common::open_device()?;
         let options = ShadowOptions { outputs: Outputs::VisibilityTexture, ..Default::default() };
-        let mut shadows = Shadows::new(&device, &options)?;
-        let body = shadows.add_mesh(Arc::clone(&meshes.body))?;
-        let floor = shadows.add_mesh(Arc::clone(&meshes.floor))?;
+        let mut shadows = Shadows::new(&device)?;
+        let placed = [(&meshes.body, common::world_from_body()), (&meshes.floor, DMat4::IDENTITY)];
+        for (mesh, world_from_object) in placed {
+            let mesh = shadows.add_mesh(Arc::clone(mesh))?;
+            shadows.add_caster(&CasterInput { mesh, world_from_object, positions: Positions::OfMesh })?;
+        }
+        let light = shadows.add_light(&device, &common::light(), &options)?;
         let visibility = common::target(&device, wgpu::TextureFormat::R8Unorm, wgpu::TextureUsages::COPY_SRC);
-        Ok(Self { device, queue, shadows, body, floor, visibility })
+        Ok(Self { device, queue, shadows, light, visibility })
     }
 
     fn draw(&mut self, meshes: &Meshes) -> Result<(), PrepareError> {
         let Self { device, queue, shadows, .. } = self;
-        let caster = |mesh, world_from_object| CasterInput { mesh, world_from_object, positions: Positions::OfMesh };
-        let casters = [caster(self.body, common::world_from_body()), caster(self.floor, DMat4::IDENTITY)];
-        shadows.prepare(device, queue, &FrameInput { light: &common::light(), casters: &casters })?;
+        shadows.prepare(device, queue)?;
         let mut encoder = device.create_command_encoder(&Default::default());
         shadows.encode(&mut encoder, &mut Untimed);
         let depth = common::target(device, wgpu::TextureFormat::Depth32Float, wgpu::TextureUsages::TEXTURE_BINDING);
@@ -87,7 +88,7 @@ impl Renderer {
             background_depth: 1.0,
             target: &self.visibility.create_view(&Default::default()),
         };
-        shadows.encode_visibility(device, queue, &mut encoder, &eye, &mut Untimed)?;
+        shadows.encode_visibility((&*device, &*queue), &mut encoder, self.light, &eye, &mut Untimed)?;
         queue.submit([encoder.finish()]);
         Ok(())
     }

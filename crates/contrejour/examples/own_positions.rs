@@ -36,7 +36,7 @@ fn main() -> Outcome {
     // Every edge of a deforming mesh can come into a silhouette.
     let options = BuildOptions { motion: Motion::Deforming, ..Default::default() };
     let mesh = TopologyAwareMesh::build(&torus.positions, &torus.triangles, &options)?;
-    let mut shadows = Shadows::new(&device, &ShadowOptions::default())?;
+    let mut shadows = Shadows::new(&device)?;
     let mesh = shadows.add_mesh(Arc::new(mesh))?;
 
     let rest: Vec<[f32; 4]> = torus.positions.iter().map(|&[x, y, z]| [x, y, z, 1.0]).collect();
@@ -52,11 +52,11 @@ fn main() -> Outcome {
         mapped_at_creation: false,
     });
 
-    let light = common::light();
-    let positions = Positions::InBuffer { buffer: &deformed, offset: 0, stride: STRIDE };
-    let caster = CasterInput { mesh, world_from_object: common::world_from_body(), positions };
+    let positions = Positions::InBuffer { buffer: deformed.clone(), offset: 0, stride: STRIDE };
+    shadows.add_caster(&CasterInput { mesh, world_from_object: common::world_from_body(), positions })?;
+    shadows.add_light(&device, &common::light(), &ShadowOptions::default())?;
     for time in [0.0, 1.0, 2.0] {
-        shadows.prepare(&device, &queue, &FrameInput { light: &light, casters: &[caster] })?;
+        shadows.prepare(&device, &queue)?;
         let mut encoder = device.create_command_encoder(&Default::default());
         deform(&device, &mut encoder, &rest, &deformed, time);
         shadows.encode(&mut encoder, &mut Untimed);

@@ -15,15 +15,16 @@ use contrejour::prelude::*;
 fn main() -> Outcome {
     let (device, queue) = common::open_device()?;
     let torus = Torus::new(96, 48);
-    let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
-    let mut shadows = Shadows::new(&device, &options)?;
+    let mut shadows = Shadows::new(&device)?;
     let mesh = TopologyAwareMesh::build(&torus.positions, &torus.triangles, &BuildOptions::default())?;
     let topology = Arc::new(mesh);
     let mesh = shadows.add_mesh(Arc::clone(&topology))?;
 
-    let light = common::light();
     let caster = CasterInput { mesh, world_from_object: common::world_from_body(), positions: Positions::OfMesh };
-    shadows.prepare(&device, &queue, &FrameInput { light: &light, casters: &[caster] })?;
+    shadows.add_caster(&caster)?;
+    let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
+    shadows.add_light(&device, &common::light(), &options)?;
+    shadows.prepare(&device, &queue)?;
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);
     queue.submit([encoder.finish()]);

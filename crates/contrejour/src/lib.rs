@@ -12,14 +12,14 @@
 //! use contrejour::wgpu;
 //!
 //! # fn frame(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), Box<dyn std::error::Error>> {
-//! // Once: a mesh with its topology, and the shadows of one light.
+//! // Once: a mesh with its topology, a caster and a light.
 //! let positions = [[-1.0, 1.0, -1.0], [1.0, 1.0, -1.0], [0.0, 1.0, 1.0]];
 //! let mesh = TopologyAwareMesh::build(&positions, &[[0, 2, 1]], &BuildOptions::default())?;
-//! let mut shadows = Shadows::new(device, &ShadowOptions::default())?;
+//! let mut shadows = Shadows::new(device)?;
 //! let mesh = shadows.add_mesh(Arc::new(mesh))?;
-//!
-//! // Each frame: say where light and casters are, and record into your own encoder.
-//! let light = Light {
+//! let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
+//! let caster = shadows.add_caster(&caster)?;
+//! let spot = Light {
 //!     kind: LightKind::Spot {
 //!         position: DVec3::new(2.0, 5.0, 1.0),
 //!         target: DVec3::ZERO,
@@ -30,14 +30,18 @@
 //!     },
 //!     color: [1.0; 3],
 //! };
-//! let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
-//! shadows.prepare(device, queue, &FrameInput { light: &light, casters: &[caster] })?;
+//! let light = shadows.add_light(device, &spot, &ShadowOptions::default())?;
+//!
+//! // Each frame: say what moved, and record into your own encoder.
+//! shadows.place_caster(caster, &DMat4::from_rotation_y(0.1))?;
+//! shadows.set_light(light, &spot)?;
+//! shadows.prepare(device, queue)?;
 //! let mut encoder = device.create_command_encoder(&Default::default());
 //! shadows.encode(&mut encoder, &mut Untimed);
 //!
 //! // In your shader: `contrejour_visibility(position_world, normal_world)`, at a bind group that you name.
-//! let receiver_wgsl = shadows.visibility_wgsl(2);
-//! let bind_group = shadows.visibility_bind_group();
+//! let receiver_wgsl = shadows.visibility_wgsl(light, 2);
+//! let bind_group = shadows.visibility_bind_group(light);
 //! # let _ = (receiver_wgsl, bind_group);
 //! queue.submit([encoder.finish()]);
 //! # Ok(())
@@ -61,7 +65,8 @@ pub use wgpu;
 /// What most users need.
 pub mod prelude {
     pub use contrejour_gpu::{
-        CasterInput, EyeInput, FrameInput, MeshHandle, PassTimer, Positions, ShadowOptions, Shadows, Untimed,
+        CasterHandle, CasterInput, EyeInput, LightHandle, MeshHandle, PassTimer, Positions, ShadowOptions, Shadows,
+        Untimed,
     };
     pub use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
     pub use contrejour_plan::{DepthBias, Light, LightKind, Outputs, ShadowSettings, SmoothieWidth, Technique};

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use contrejour_gpu::shaders::visibility_wgsl;
-use contrejour_plan::VisibilityKind;
+use contrejour_plan::{ViewChoice, VisibilityKind};
 
 /// A module's name and whole text.
 pub struct Module {
@@ -46,14 +46,15 @@ pub fn all() -> Vec<Module> {
         let text: Vec<_> = files.iter().map(|file| shader_file(&format!("{file}.wgsl"))).collect();
         text.join("\n")
     };
-    for kind in VisibilityKind::examples() {
+    let both = VisibilityKind::examples().flat_map(|kind| ViewChoice::ALL.map(|choice| (kind, choice)));
+    for (kind, choice) in both {
         // At the bind groups that the renderer's modules leave to the library.
         for (own, files, group) in [
             ("shade", &["raster/shade", "shared/surface_light", "shared/surface"][..], 2),
             ("judged_visibility", &["raster/judged_visibility", "shared/full_screen"], 1),
         ] {
-            let wgsl = format!("{}\n{}", joined(files), visibility_wgsl(kind, group));
-            modules.push(Module { name: format!("{own}+{kind:?}"), wgsl });
+            let wgsl = format!("{}\n{}", joined(files), visibility_wgsl(kind, choice, group));
+            modules.push(Module { name: format!("{own}+{kind:?}+{choice:?}"), wgsl });
         }
     }
     for (name, files) in [

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use contrejour_gpu::{
-    CasterInput, CountersError, DeviceError, EyeInput, FrameInput, NewShadowsError, Positions, PrepareError,
-    ShadowOptions, Shadows, Untimed,
+    CasterInput, CountersError, DeviceError, EyeInput, NewShadowsError, Positions, PrepareError, ShadowOptions,
+    Shadows, Untimed,
 };
 use contrejour_plan::{BufferKind, Light, Outputs, ShadowSettings, Technique};
-use contrejour_render::{DeviceFault, Gpu as RenderGpu, Judge, NewRendererError, Renderer};
+use contrejour_render::{DeviceFault, Gpu as RenderGpu, Judge, NewRendererError, PrepareShadowsError, Renderer};
 use contrejour_scene::Scene;
 use contrejour_tests::gpu::{Gpu, gpu_alone, gpu_with_large_textures};
 use contrejour_tests::harness::{Outcome, gpu_trial};
@@ -52,7 +52,7 @@ fn left_by(gpu: &Gpu, pipeline: &mut Pipeline<'_>, light: &Light) -> Result<(Vec
     let mut edges: Vec<u64> =
         pipeline.silhouettes().iter().map(|edge| u64::from(edge.caster) << 32 | u64::from(edge.edge_id)).collect();
     edges.sort_unstable();
-    let depth = pipeline.shadows.maps().shadow_depth.ok_or("there is no map")?;
+    let depth = pipeline.maps().shadow_depth.ok_or("there is no map")?;
     Ok((edges, read_floats(gpu, depth)))
 }
 
@@ -64,9 +64,8 @@ fn a_lost_device_is_told() -> Outcome {
     let before = left_by(&gpu, &mut pipeline, &light)?;
     gpu.device.destroy();
 
-    let input = FrameInput { light: &light, casters: &[] };
     for frame in 0..2 {
-        let lost = pipeline.shadows.prepare(&gpu.device, &gpu.queue, &input);
+        let lost = pipeline.prepare(&light);
         if !matches!(lost, Err(PrepareError::Device(DeviceError::Lost))) {
             return Err(format!("frame {frame} on a lost device was prepared: {lost:?}"));
         }
@@ -75,7 +74,7 @@ fn a_lost_device_is_told() -> Outcome {
     if !matches!(lost, Err(CountersError::Device(DeviceError::Lost))) {
         return Err(format!("a lost device has counted {lost:?}"));
     }
-    let lost = Shadows::new(&gpu.device, &options).map(|_| ());
+    let lost = Shadows::new(&gpu.device).map(|_| ());
     if !matches!(lost, Err(NewShadowsError::Device(DeviceError::Lost))) {
         return Err(format!("a lost device is as good as new: {lost:?}"));
     }
@@ -93,10 +92,12 @@ fn a_device_lost_under_way() -> Outcome {
     let mut pipeline = Pipeline::new(&gpu, &mesh, &small(Technique::default()))?;
     pipeline.complete_frame(&first)?;
     let part = &mesh.parts[0];
-    let mut shadows = Shadows::new(&gpu.device, &small(Technique::default())).map_err(text)?;
+    let mut shadows = Shadows::new(&gpu.device).map_err(text)?;
     let handle = shadows.add_mesh(Arc::clone(&part.topology)).map_err(text)?;
     let caster = CasterInput { mesh: handle, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
-    shadows.prepare(&gpu.device, &gpu.queue, &FrameInput { light: &second, casters: &[caster] }).map_err(text)?;
+    shadows.add_caster(&caster).map_err(text)?;
+    shadows.add_light(&gpu.device, &second, &small(Technique::default())).map_err(text)?;
+    shadows.prepare(&gpu.device, &gpu.queue).map_err(text)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     gpu.device.destroy();
     shadows.encode(&mut encoder, &mut Untimed);
@@ -117,15 +118,14 @@ fn a_frame_that_failed_is_made_again() -> Outcome {
     let before = left_by(&gpu, &mut pipeline, &light)?;
     pipeline.shadows.buffer(BufferKind::Casters).ok_or("there are casters")?.destroy();
 
-    // Two casters change places, so the records of all are written again.
-    pipeline.swap(0, 1);
+    // A caster comes and another goes, so the records of all are written again.
+    pipeline.replace_last();
     let refused = pipeline.prepare(&light);
     let told =
         matches!(&refused, Err(PrepareError::Device(DeviceError::Refused { text })) if text.contains("destroyed"));
-    if !told || pipeline.shadows.plan().is_some() {
+    if !told || pipeline.plan().is_some() {
         return Err(format!("the frame is kept, or the reason is not told: {refused:?}"));
     }
-    pipeline.swap(0, 1);
     let again = left_by(&gpu, &mut pipeline, &light)?;
     if again == before { Ok(()) } else { Err("what was made again draws another picture".into()) }
 }
@@ -159,7 +159,7 @@ fn lack_of_memory_is_told() -> Outcome {
             }
             other => return Err(format!("attempt {attempt}: {other:?}")),
         }
-        if pipeline.shadows.plan().is_some() {
+        if pipeline.plan().is_some() {
             return Err("a frame without its maps is kept".into());
         }
     }
@@ -194,7 +194,9 @@ fn a_wrong_format_is_refused() -> Outcome {
     let eye = EyeInput { depth: &depth, world_from_eye_clip: DMat4::IDENTITY, background_depth: 1.0, target: &target };
     for _ in 0..2 {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let drawn = pipeline.shadows.encode_visibility(&gpu.device, &gpu.queue, &mut encoder, &eye, &mut Untimed);
+        let light = pipeline.light();
+        let on = (&gpu.device, &gpu.queue);
+        let drawn = pipeline.shadows.encode_visibility(on, &mut encoder, light, &eye, &mut Untimed);
         if !matches!(drawn, Err(DeviceError::Refused { .. })) {
             return Err(format!("a depth format is drawn into as a colour: {drawn:?}"));
         }
@@ -203,7 +205,8 @@ fn a_wrong_format_is_refused() -> Outcome {
     }
     gpu.device.destroy();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    match pipeline.shadows.encode_visibility(&gpu.device, &gpu.queue, &mut encoder, &eye, &mut Untimed) {
+    let light = pipeline.light();
+    match pipeline.shadows.encode_visibility((&gpu.device, &gpu.queue), &mut encoder, light, &eye, &mut Untimed) {
         Err(DeviceError::Lost) => Ok(()),
         other => Err(format!("a lost device draws: {other:?}")),
     }
@@ -216,17 +219,18 @@ fn destroyed_positions_spoil_one_frame() -> Outcome {
     let mesh = body();
     let light = lights(&mesh)[0];
     let part = &mesh.parts[0];
-    let mut shadows = Shadows::new(&gpu.device, &small(Technique::default())).map_err(text)?;
+    let mut shadows = Shadows::new(&gpu.device).map_err(text)?;
+    shadows.add_light(&gpu.device, &light, &small(Technique::default())).map_err(text)?;
     let handle = shadows.add_mesh(Arc::clone(&part.topology)).map_err(text)?;
     let positions = || {
         let bytes = bytemuck::cast_slice(&part.topology.positions);
         gpu.upload("positions", bytes, wgpu::BufferUsages::STORAGE)
     };
     let mut frame = |buffer: &wgpu::Buffer| -> Result<Option<String>, String> {
-        let positions = Positions::InBuffer { buffer, offset: 0, stride: 12 };
+        let positions = Positions::InBuffer { buffer: buffer.clone(), offset: 0, stride: 12 };
         let caster = CasterInput { mesh: handle, world_from_object: part.world_from_object, positions };
-        let input = FrameInput { light: &light, casters: &[caster] };
-        shadows.prepare(&gpu.device, &gpu.queue, &input).map_err(text)?;
+        let caster = shadows.add_caster(&caster).map_err(text)?;
+        shadows.prepare(&gpu.device, &gpu.queue).map_err(text)?;
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         shadows.encode(&mut encoder, &mut Untimed);
@@ -235,6 +239,7 @@ fn destroyed_positions_spoil_one_frame() -> Outcome {
         if spoiled.is_none() {
             shadows.wait_for_counters(&gpu.device).map_err(text)?;
         }
+        shadows.remove_caster(caster).map_err(text)?;
         Ok(spoiled)
     };
     let destroyed = positions();
@@ -305,7 +310,7 @@ fn pictures_need_no_more_than_the_defaults() -> Outcome {
     let too_large =
         ShadowOptions { settings: ShadowSettings { map_size: 16_384, ..Default::default() }, ..Default::default() };
     match Renderer::new(RenderGpu::open_with_defaults().map_err(text)?, &scene, &too_large).map(|_| ()) {
-        Err(NewRendererError::Prepare(PrepareError::Plan(_))) => Ok(()),
+        Err(NewRendererError::Prepare(PrepareShadowsError::Prepare(PrepareError::Plan(_)))) => Ok(()),
         other => Err(format!("a map larger than the defaults allow: {other:?}")),
     }
 }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_gpu::{CasterInput, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{BLOCK_SIZE, Counters, LIT_WORDS_PER_BLOCK};
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
 use contrejour_oracle::lit;
@@ -30,8 +30,7 @@ pub fn trials() -> Vec<Trial> {
 }
 
 fn hostile_faces_are_exact(gpu: &Gpu) -> Outcome {
-    let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
-    let mut shadows = Shadows::new(&gpu.device, &options).map_err(|error| error.to_string())?;
+    let mut shadows = Shadows::new(&gpu.device).map_err(|error| error.to_string())?;
     let (mut faces, mut near, mut far) = (0, 0, 0);
     for kind in Hardness::ALL {
         for (is_point, mirrored) in [(true, false), (false, true), (true, true), (false, false)] {
@@ -108,18 +107,23 @@ fn lit_words_of_device(
         .map_err(|error| error.to_string())?;
     let mesh = shadows.add_mesh(Arc::new(mesh)).map_err(|error| error.to_string())?;
     let world_from_object = caster.light.world_from_object();
-    let casters = [CasterInput { mesh, world_from_object, positions: Positions::OfMesh }];
+    let input = CasterInput { mesh, world_from_object, positions: Positions::OfMesh };
+    let handle = shadows.add_caster(&input).map_err(|error| error.to_string())?;
+    let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
+    let light = shadows.add_light(&gpu.device, &caster.light.light(), &options).map_err(|error| error.to_string())?;
 
     let waiting = gpu.waiting();
-    let frame = FrameInput { light: &caster.light.light(), casters: &casters };
-    shadows.prepare(&gpu.device, &gpu.queue, &frame).map_err(|error| error.to_string())?;
+    shadows.prepare(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);
     gpu.queue.submit([encoder.finish()]);
     let counters = shadows.wait_for_counters(&gpu.device).map_err(|error| error.to_string())?;
     drop(waiting);
     let lit = shadows.buffer(BufferKind::Lit).ok_or("a frame with faces has lit bits")?;
-    Ok((gpu.read_back(lit, word_count(caster)), counters))
+    let words = gpu.read_back(lit, word_count(caster));
+    shadows.remove_light(light).map_err(|error| error.to_string())?;
+    shadows.remove_caster(handle).map_err(|error| error.to_string())?;
+    Ok((words, counters))
 }
 
 /// Words of whole blocks.

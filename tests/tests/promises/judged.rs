@@ -369,7 +369,7 @@ fn the_plan_is_known_before() -> Outcome {
         for settings in techniques(&scene) {
             let before = frame_plan(&scene, &settings, &judge.gpu().facts()).map_err(text)?;
             let contestant = judge.contestant(&settings).map_err(text)?;
-            let followed = contestant.shadows().plan().ok_or("a contestant is prepared")?;
+            let followed = contestant.plan().ok_or("a contestant is prepared")?;
             let facts = |plan: &FramePlan| {
                 let FramePlan { stages, passes, buffers, textures, casting, pages, .. } = plan.clone();
                 (stages, passes, buffers, textures, casting, pages)

@@ -105,7 +105,7 @@ fn census(mesh: &TestMesh, options: &ShadowOptions, light: &Light) -> Result<Cen
     let mut pipeline = Pipeline::new(&gpu, mesh, options)?;
     pipeline.complete_frame(light)?;
     let created = Census::of_device(&gpu).since(&before);
-    let plan = pipeline.shadows.plan().ok_or("a prepared frame has a plan")?;
+    let plan = pipeline.plan().ok_or("a prepared frame has a plan")?;
     let planned = Census::of_plan(plan);
     if !created.is_as_planned(&planned) {
         return Err(format!("created {created:?}, planned {planned:?}"));

@@ -131,7 +131,7 @@ fn small_maps() -> ShadowOptions {
 /// Depths are finite, alphas are from 0 to 1.
 fn check_maps(gpu: &Gpu, pipeline: &mut Pipeline<'_>, light: &Light) -> Outcome {
     pipeline.complete_frame(light)?;
-    let maps = pipeline.shadows.maps();
+    let maps = pipeline.maps();
     if let Some(texture) = maps.shadow_depth {
         check_finite("shadow_depth", &read_floats(gpu, texture))?;
     }

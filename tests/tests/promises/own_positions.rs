@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_gpu::{CasterInput, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_mesh::{BuildOptions, Motion, TopologyAwareMesh};
 use contrejour_plan::{BufferKind, Outputs};
 use contrejour_tests::exhaust::{Exhaust, OwnPositions};
@@ -134,15 +134,17 @@ fn planes_come_with_the_mesh(gpu: &Gpu) -> Outcome {
     let turned = [corners[0], corners[2], corners[1]];
     let buffer = gpu.upload("turned", bytemuck::cast_slice(&turned), wgpu::BufferUsages::STORAGE);
     let shadow_options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
-    let mut shadows = Shadows::new(&gpu.device, &shadow_options).map_err(|error| error.to_string())?;
+    let mut shadows = Shadows::new(&gpu.device).map_err(|error| error.to_string())?;
     let mesh = shadows.add_mesh(Arc::new(topology)).map_err(|error| error.to_string())?;
     let light = point(DVec3::new(0.1, 0.2, 4.0), DVec3::ZERO, 1.0);
-    let live = Positions::InBuffer { buffer: &buffer, offset: 0, stride: 12 };
-    for (positions, expected) in [(live, 0_u32), (Positions::OfMesh, 1), (live, 0), (Positions::OfMesh, 1)] {
-        let casters = [CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions }];
-        let frame = FrameInput { light: &light, casters: &casters };
+    shadows.add_light(&gpu.device, &light, &shadow_options).map_err(|error| error.to_string())?;
+    let live = Positions::InBuffer { buffer, offset: 0, stride: 12 };
+    let takes_turns = [(live.clone(), 0_u32), (Positions::OfMesh, 1), (live, 0), (Positions::OfMesh, 1)];
+    for (positions, expected) in takes_turns {
+        let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions: positions.clone() };
+        let caster = shadows.add_caster(&caster).map_err(|error| error.to_string())?;
         let waiting = gpu.waiting();
-        shadows.prepare(&gpu.device, &gpu.queue, &frame).map_err(|error| error.to_string())?;
+        shadows.prepare(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         shadows.encode(&mut encoder, &mut Untimed);
         gpu.queue.submit([encoder.finish()]);
@@ -153,6 +155,7 @@ fn planes_come_with_the_mesh(gpu: &Gpu) -> Outcome {
         if found != expected {
             return Err(format!("lit bits are {found}, expected {expected} with {positions:?}"));
         }
+        shadows.remove_caster(caster).map_err(|error| error.to_string())?;
     }
     Ok(())
 }

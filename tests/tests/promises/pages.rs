@@ -1,6 +1,6 @@
 //! A mesh that is too large for the device's buffers is spread over pages, and nothing else is different.
 
-use contrejour_gpu::{ShadowOptions, Shadows};
+use contrejour_gpu::ShadowOptions;
 use contrejour_layout::{Corner, Quad, SilhouetteEdge, VertexEdge};
 use contrejour_oracle::{ManyLights, OracleTopology};
 use contrejour_plan::{BufferKind, Light, MeshPiece, NearOne, ShadowSettings, caster_light, views};
@@ -47,7 +47,7 @@ struct Left {
 fn left_by(gpu: &Gpu, pipeline: &mut Pipeline<'_>, light: &Light) -> Result<Left, String> {
     pipeline.complete_frame(light)?;
     let (silhouettes, quads, corners) = (pipeline.silhouettes(), pipeline.quads(), pipeline.corners());
-    let maps = pipeline.shadows.maps();
+    let maps = pipeline.maps();
     let (Some(depth), Some(smoothie_depth), Some(alpha)) =
         (maps.shadow_depth, maps.smoothie_depth, maps.smoothie_alpha)
     else {
@@ -69,15 +69,15 @@ fn compare(whole: &Left, paged: &Left) -> Outcome {
     Ok(())
 }
 
-fn page_count(shadows: &Shadows) -> usize {
-    shadows.plan().map_or(0, |plan| plan.pages.len())
+fn page_count(pipeline: &Pipeline<'_>) -> usize {
+    pipeline.plan().map_or(0, |plan| plan.pages.len())
 }
 
 /// A mesh as a device cuts it; none where one page is enough, or where not even its positions fit.
 fn paged<'a>(gpu: &'a Gpu, mesh: &TestMesh) -> Result<Option<Pipeline<'a>>, String> {
     let mut pipeline = Pipeline::new(gpu, mesh, &options())?;
     match pipeline.frame(&lights(mesh)[0]) {
-        Ok(_) => Ok(PAGES.contains(&page_count(&pipeline.shadows)).then_some(pipeline)),
+        Ok(_) => Ok(PAGES.contains(&page_count(&pipeline)).then_some(pipeline)),
         Err(error) if error.contains("max_storage_buffer_binding_size") => Ok(None),
         Err(error) => Err(error),
     }
@@ -93,7 +93,7 @@ fn leave_what_one_page_leaves(gpu: &Gpu) -> Outcome {
         for mesh in &meshes {
             let at = |difference: String| format!("{} in buffers of {limit} bytes: {difference}", mesh.name);
             if let Some(mut pipeline) = paged(&small, mesh).map_err(at)? {
-                page_counts.push(page_count(&pipeline.shadows));
+                page_counts.push(page_count(&pipeline));
                 check(gpu, &small, mesh, &mut pipeline).map_err(at)?;
             }
         }
@@ -120,7 +120,7 @@ fn check(gpu: &Gpu, small: &Gpu, mesh: &TestMesh, pipeline: &mut Pipeline<'_>) -
         compare(&expected, &found).map_err(at)?;
         check_silhouettes(mesh, &oracles, light, &found.silhouettes).map_err(at)?;
     }
-    if page_count(&whole.shadows) == 1 { Ok(()) } else { Err("a page is not enough without a small limit".into()) }
+    if page_count(&whole) == 1 { Ok(()) } else { Err("a page is not enough without a small limit".into()) }
 }
 
 /// Exact for each caster that is in view, and closed for all.
@@ -148,7 +148,7 @@ fn missing_neighbours_are_found(gpu: &Gpu) -> Outcome {
     let mut whole = Pipeline::new(gpu, &mesh, &options())?;
     compare(&left_by(gpu, &mut whole, &lights[0])?, &left_by(&small, &mut pipeline, &lights[0])?)?;
 
-    let pages = pipeline.shadows.plan().map_or(&[][..], |plan| &plan.pages);
+    let pages = pipeline.plan().map_or(&[][..], |plan| &plan.pages);
     for (page, buffer) in pages.iter().zip(pipeline.shadows.buffers(BufferKind::VertexEdges)) {
         let [piece] = page.pieces.as_slice() else { return Err("one mesh has one piece on each page".into()) };
         small.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&lists_of_own_edges(&small, &mesh, piece, buffer)));

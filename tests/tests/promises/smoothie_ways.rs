@@ -122,7 +122,7 @@ fn map(gpu: &Gpu, mesh: &TestMesh, light: &Light, view: &View, blend: SmoothieBl
     let settings = ShadowSettings { technique, map_size: MAP_SIZE, ..Default::default() };
     let mut pipeline = Pipeline::new(gpu, mesh, &ShadowOptions { settings, ..Default::default() })?;
     pipeline.complete_frame(light)?;
-    let maps = pipeline.shadows.maps();
+    let maps = pipeline.maps();
     match (blend, maps.smoothie_buffer, maps.smoothie_depth, maps.smoothie_alpha) {
         (SmoothieBlend::BestOfDevice, Some(buffer), None, None) => {
             let texels = read_floats(gpu, buffer);

@@ -44,7 +44,7 @@ fn are_exact_and_whole(gpu: &Gpu) -> Outcome {
     let counters = pipeline.complete_frame(&light)?;
     say(&format!("a complete frame: {counters:?}"));
 
-    let plan = pipeline.shadows.plan().ok_or("a prepared frame has a plan")?;
+    let plan = pipeline.plan().ok_or("a prepared frame has a plan")?;
     eprintln!("{plan}");
     let most_items = plan.pages.iter().map(|page| page.counts.edge_blocks).max();
     if plan.pages.len() < 2 || most_items <= Some(MAX_GROUPS_X) {
@@ -64,7 +64,7 @@ fn are_exact_and_whole(gpu: &Gpu) -> Outcome {
     compare_keys("corners", &twin.corners[..twin.counters.corners as usize], &pipeline.corners(), is_hardly_open)?;
     say("quads and corners are those of the twin");
 
-    let maps = pipeline.shadows.maps();
+    let maps = pipeline.maps();
     let (Some(depth), Some(smoothie_depth), Some(alpha)) =
         (maps.shadow_depth, maps.smoothie_depth, maps.smoothie_alpha)
     else {

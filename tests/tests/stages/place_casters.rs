@@ -35,7 +35,7 @@ const WRONG_DIGITS: [Fault; 2] = [
 
 /// Casters that are left out, or are not, at the wrong place.
 const WRONG_SIDES: [Fault; 3] = [
-    replaced("let side = 1.0 + view.guard_ndc;", "let side = 1.0;"),
+    replaced("let side = 1.0 + view.reach_ndc;", "let side = 1.0;"),
     replaced("|| is_beyond(id, matrix, vec4f(-1.0, 0.0, 0.0, side))", ""),
     replaced("dot(normal, middle) + dot(abs(normal), half_size)", "dot(normal, middle)"),
 ];
@@ -152,16 +152,16 @@ fn culls(gpu: &Gpu, stage: &StageRun) -> Outcome {
             }
             let outputs = run(gpu, stage, &frame, frame.view.caster_count.div_ceil(64));
             let found = outputs.get::<CasterLight>("caster_lights");
-            let guard_ndc = view.guard_ndc(&settings);
+            let reach_ndc = view.reach_ndc(&settings);
             for ((light, bounds), place) in found.iter().zip(&boxes).zip(&frame.caster_places) {
                 if place.casts != CASTER_IN_VIEW || light.casts == 1 && light.light_object == [0; 4] {
                     return Err(format!("{bounds:?} has a place: {place:?}"));
                 }
                 match light.casts {
-                    0 if view.can_see(&grown(bounds, -NEARLY), guard_ndc) => {
+                    0 if view.can_see(&grown(bounds, -NEARLY), reach_ndc) => {
                         return Err(format!("left out: {bounds:?}"));
                     }
-                    1 if !view.can_see(&grown(bounds, NEARLY), guard_ndc) => return Err(format!("kept: {bounds:?}")),
+                    1 if !view.can_see(&grown(bounds, NEARLY), reach_ndc) => return Err(format!("kept: {bounds:?}")),
                     0 => unseen += 1,
                     _ => seen += 1,
                 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contrejour_gpu::{CasterInput, FrameInput, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_gpu::{CasterInput, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{BLOCK_SIZE, Caster, SilhouetteEdge, WorkItem};
 use contrejour_mirror::{FrameInputs, run_frame};
 use contrejour_plan::{Light, NearOne, Outputs, ShadowSettings, View, ViewCounts, caster_light, object_light, views};
@@ -15,17 +15,18 @@ use crate::output::warn;
 /// Runs the compute stages, and nothing else, on the device.
 pub fn on_gpu(placed: &[PlacedMesh<'_>], light: &Light) -> Result<Vec<SilhouetteEdge>, Failure> {
     let gpu = Gpu::open()?;
-    let options = ShadowOptions { outputs: Outputs::Silhouettes, ..ShadowOptions::default() };
-    let mut shadows = Shadows::new(&gpu.device, &options)?;
-    let mut casters = Vec::new();
+    let mut shadows = Shadows::new(&gpu.device)?;
     for placed in placed {
-        casters.push(CasterInput {
-            mesh: shadows.add_mesh(Arc::clone(&placed.topology))?,
+        let mesh = shadows.add_mesh(Arc::clone(&placed.topology))?;
+        shadows.add_caster(&CasterInput {
+            mesh,
             world_from_object: placed.world_from_object,
             positions: Positions::OfMesh,
-        });
+        })?;
     }
-    shadows.prepare(&gpu.device, &gpu.queue, &FrameInput { light, casters: &casters })?;
+    let options = ShadowOptions { outputs: Outputs::Silhouettes, ..ShadowOptions::default() };
+    shadows.add_light(&gpu.device, light, &options)?;
+    shadows.prepare(&gpu.device, &gpu.queue)?;
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     shadows.encode(&mut encoder, &mut Untimed);
     gpu.queue.submit([encoder.finish()]);

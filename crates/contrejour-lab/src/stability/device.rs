@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use bytemuck::{AnyBitPattern, NoUninit, cast_slice, pod_collect_to_vec};
-use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_gpu::{CasterInput, LightHandle, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_layout::{CasterLight, Corner, Counters, LightView, Quad, ReceiverView, SilhouetteEdge};
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError};
-use contrejour_plan::{BufferKind, Light, ShadowSettings};
+use contrejour_plan::{BufferKind, FramePlan, Light, ShadowSettings};
 use contrejour_render::{Gpu, read_buffer, read_rows};
 use glam::DMat4;
 use half::f16;
@@ -42,7 +42,7 @@ impl DeviceMesh {
 pub(super) struct DeviceFrame<'a> {
     gpu: &'a Gpu,
     pub shadows: Shadows,
-    casters: Vec<(MeshHandle, DMat4)>,
+    light: LightHandle,
 }
 
 /// What a frame leaves.
@@ -59,26 +59,23 @@ pub(super) struct DeviceOutputs {
 }
 
 impl<'a> DeviceFrame<'a> {
-    pub fn new(gpu: &'a Gpu, meshes: &[DeviceMesh], settings: &ShadowSettings) -> Result<Self, Refusal> {
+    pub fn new(gpu: &'a Gpu, meshes: &[DeviceMesh], light: &Light, settings: &ShadowSettings) -> Result<Self, Refusal> {
         let options = ShadowOptions { settings: *settings, ..ShadowOptions::default() };
-        let mut shadows = Shadows::new(&gpu.device, &options)?;
-        let mut casters = Vec::new();
+        let mut shadows = Shadows::new(&gpu.device)?;
         for mesh in meshes {
-            casters.push((shadows.add_mesh(Arc::clone(&mesh.topology))?, mesh.world_from_object));
+            let handle = shadows.add_mesh(Arc::clone(&mesh.topology))?;
+            let world_from_object = mesh.world_from_object;
+            shadows.add_caster(&CasterInput { mesh: handle, world_from_object, positions: Positions::OfMesh })?;
         }
-        Ok(Self { gpu, shadows, casters })
+        let light = shadows.add_light(&gpu.device, light, &options)?;
+        Ok(Self { gpu, shadows, light })
     }
 
     /// Draws one frame and waits for it. Returns the time from its submission. Unit: milliseconds.
     fn draw(&mut self, light: &Light) -> Result<f64, Ended> {
         let Gpu { device, queue, .. } = self.gpu;
-        let casters: Vec<_> = self
-            .casters
-            .iter()
-            .map(|&(mesh, world_from_object)| CasterInput { mesh, world_from_object, positions: Positions::OfMesh })
-            .collect();
-        let input = FrameInput { light, casters: &casters };
-        self.shadows.prepare(device, queue, &input).map_err(Refusal::from)?;
+        self.shadows.set_light(self.light, light).map_err(Refusal::from)?;
+        self.shadows.prepare(device, queue).map_err(Refusal::from)?;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.shadows.encode(&mut encoder, &mut Untimed);
         let clock = Instant::now();
@@ -115,6 +112,11 @@ impl<'a> DeviceFrame<'a> {
             times.push(self.draw(light)?);
         }
         Ok(Some(Timing::from_samples(&times).map_err(CaseError::from)?.median_ms))
+    }
+
+    /// The plan of the last frame.
+    pub fn plan(&self) -> Option<&FramePlan> {
+        self.shadows.plan(self.light)
     }
 
     pub fn read(&self) -> Result<DeviceOutputs, CaseError> {
@@ -164,7 +166,7 @@ impl<'a> DeviceFrame<'a> {
     }
 
     fn non_finite_texels(&self) -> Result<u64, CaseError> {
-        let maps = self.shadows.maps();
+        let maps = self.shadows.maps(self.light);
         let textures = [
             maps.shadow_depth,
             maps.shadow_hardware_depth,

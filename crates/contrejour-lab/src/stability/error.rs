@@ -1,6 +1,6 @@
 //! Why a run stops, and what the library may refuse.
 
-use contrejour_gpu::{AddMeshError, CountersError, NewShadowsError, PrepareError};
+use contrejour_gpu::{AddMeshError, CasterError, CountersError, NewShadowsError, PrepareError, ShadowLightError};
 use contrejour_mesh::TopologyError;
 use contrejour_plan::LightError;
 use contrejour_render::{DeviceFault, ReadError};
@@ -74,6 +74,10 @@ pub(super) enum Refusal {
     AddMesh(#[from] AddMeshError),
     #[error(transparent)]
     Light(#[from] LightError),
+    #[error(transparent)]
+    AddCaster(#[from] CasterError),
+    #[error(transparent)]
+    ShadowLight(#[from] ShadowLightError),
     #[error(transparent)]
     Prepare(#[from] PrepareError),
 }

@@ -3,7 +3,6 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use contrejour_gpu::Shadows;
 use contrejour_layout::{CasterLight, Corner, Quad, SilhouetteEdge};
 use contrejour_oracle::{GapSearch, OracleTopology, blocker_image, open_vertices, outline_gaps};
 use contrejour_plan::{NearOne, Omitted, Reason, View, object_light, views};
@@ -47,7 +46,7 @@ pub(super) fn measure(gpu: &Gpu, family: &Family, case: &Case) -> Result<Row, Ca
 fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
     let meshes = case.meshes.iter().map(DeviceMesh::new).collect::<Result<Vec<_>, _>>().map_err(Refusal::from)?;
     let view = views(&case.light).map_err(Refusal::from)?[0];
-    let mut device = DeviceFrame::new(gpu, &meshes, &case.settings)?;
+    let mut device = DeviceFrame::new(gpu, &meshes, &case.light, &case.settings)?;
     device.complete(&case.light)?;
     row.time_ms = device.time_ms(&case.light)?;
     let found = device.read()?;
@@ -115,7 +114,7 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
             add_reason(&mut row.degrades, &format!("the mesh casts nothing: {}", why_idle(mesh, &view)));
         }
     }
-    explain(row, &device.shadows);
+    explain(row, &device);
     // Before it is looked at with maps of its own: large ones would stand twice.
     drop(device);
     if let Some(camera) = case.seen_from
@@ -157,13 +156,13 @@ fn why_idle(mesh: &DeviceMesh, view: &View) -> Reason {
 }
 
 /// Adds what the library itself says that it left out.
-fn explain(row: &mut Row, shadows: &Shadows) {
-    let left_out = shadows.plan().map_or(&[][..], |plan| &plan.left_out);
+fn explain(row: &mut Row, device: &DeviceFrame<'_>) {
+    let left_out = device.plan().map_or(&[][..], |plan| &plan.left_out);
     let told = left_out.iter().filter_map(|left_out| match (&left_out.what, left_out.reason) {
         (Omitted::DetectionStages, Reason::LightHasNoSize) => Some(format!("no silhouette: {}", left_out.reason)),
         _ => None,
     });
-    let counters = shadows.stats().counters.unwrap_or_default();
+    let counters = device.shadows.stats().counters.unwrap_or_default();
     let imageless = (counters.imageless_casters > 0).then(|| {
         "32-bit floats can't hold the view's clip space: the silhouette is found, no shadow is thrown".to_owned()
     });

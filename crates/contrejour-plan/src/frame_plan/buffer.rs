@@ -35,9 +35,9 @@ pub enum BufferKind {
     ItemArgs,
     /// The light as each caster sees it.
     CasterLights,
-    /// The light view; a uniform.
+    /// The views of the light; each is a uniform.
     LightView,
-    /// The light view as receivers see it; a uniform.
+    /// The views of the light as receivers see them; a uniform.
     ReceiverView,
     /// Lit bits, in words.
     Lit,
@@ -144,6 +144,12 @@ impl BufferKind {
             Self::Corners => "corners",
             Self::DrawArgs => "draw_args",
         }
+    }
+
+    /// Whether each light has one of its own. The others serve all lights: pools hold what casts, lists are filled for one
+    /// view after the other.
+    pub const fn is_of_light(self) -> bool {
+        matches!(self, Self::LightView | Self::ReceiverView)
     }
 
     /// Whether each page has one of its own. The others serve all pages: they are small, or vertex ids index them.

@@ -24,6 +24,11 @@ impl Capacity {
         needed.quads <= self.quads && needed.corners <= self.corners
     }
 
+    /// Room for both.
+    pub fn max(self, other: Self) -> Self {
+        Self { quads: self.quads.max(other.quads), corners: self.corners.max(other.corners) }
+    }
+
     /// The capacity for the next frame after one that counted `needed` with this one: where that was too much a quarter
     /// more than needed, else as it is. Only quads that fit count their corners, so the corners of the others are
     /// expected in proportion.

@@ -1,7 +1,8 @@
 //! Decides what a frame runs and who casts in it, and writes down what that leaves out.
 
+use super::plan::has_size;
 use super::{CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
-use crate::{DepthPrecision, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
+use crate::{DepthPrecision, ObjectBox, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
 
 /// The passes that one technique or another can do without, smoothies apart, and why.
 const MAP_PASSES: [Pass; 4] = [Pass::HardwareShadowMap, Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments];
@@ -36,7 +37,7 @@ pub(super) fn smoothies_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList
         _ if input.outputs == Outputs::Silhouettes => Reason::OnlySilhouettesWanted,
         Technique::Smoothies(_) if nothing_casts(input.scene) => Reason::NothingCasts,
         Technique::Smoothies(smoothies) => {
-            if smoothies.width != SmoothieWidth::FromLightSize || input.view.light_size > 0.0 {
+            if smoothies.width != SmoothieWidth::FromLightSize || has_size(input) {
                 return Some(smoothies);
             }
             Reason::LightHasNoSize
@@ -96,7 +97,7 @@ pub(super) fn passes(
         }
     } else {
         passes.push(Pass::HardwareShadowMap);
-        if matches!(input.settings.technique, Technique::Pcss(_)) && input.view.light_size == 0.0 {
+        if matches!(input.settings.technique, Technique::Pcss(_)) && !has_size(input) {
             left_out.add(Omitted::BlockerSearch, Reason::LightHasNoSize);
         }
     }
@@ -133,16 +134,13 @@ fn smoothie_passes(input: &PlanInput<'_>, smoothies: &SmoothieSettings, left_out
 
 /// Indices of the casters that have work items.
 pub(super) fn casting(input: &PlanInput<'_>, left_out: &mut LeftOutList) -> Vec<usize> {
-    let guard_ndc = input.view.guard_ndc(input.settings);
     let mut casting = Vec::new();
     for (index, caster) in input.scene.casters.iter().enumerate() {
         let reason = match &caster.bounds {
             _ if input.scene.meshes[caster.mesh].faces == 0 => Some(Reason::NoFaces),
-            Some(bounds) if object_light(input.view.light_world, &bounds.world_from_object).singular => {
-                Some(Reason::SingularMatrix)
-            }
+            Some(bounds) if is_singular(input, bounds) => Some(Reason::SingularMatrix),
             // The list of silhouette edges does not end where the maps do.
-            Some(bounds) if input.outputs != Outputs::Silhouettes && !input.view.can_see(bounds, guard_ndc) => {
+            Some(bounds) if input.outputs != Outputs::Silhouettes && !is_seen(input, bounds) => {
                 Some(Reason::OutsideFrustum)
             }
             _ => None,
@@ -153,6 +151,14 @@ pub(super) fn casting(input: &PlanInput<'_>, left_out: &mut LeftOutList) -> Vec<
         }
     }
     casting
+}
+
+fn is_singular(input: &PlanInput<'_>, bounds: &ObjectBox) -> bool {
+    input.views.iter().any(|view| object_light(view.light_world, &bounds.world_from_object).singular)
+}
+
+fn is_seen(input: &PlanInput<'_>, bounds: &ObjectBox) -> bool {
+    input.views.iter().any(|view| view.can_see(bounds, view.reach_ndc(input.settings)))
 }
 
 /// Notes where no face has a plane.

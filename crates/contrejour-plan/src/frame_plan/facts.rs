@@ -48,6 +48,8 @@ pub struct MeshPiece {
 /// A mesh that casts a shadow, where it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CasterFacts {
+    /// Where its records are among those of all casters.
+    pub slot: usize,
     /// What a reader of the plan calls it.
     pub name: String,
     /// Index into [`SceneFacts::meshes`].
@@ -105,6 +107,13 @@ impl CasterFacts {
     /// Whether the planes of its faces are known. Those of positions that the caller brings are not.
     pub(super) const fn has_planes(&self) -> bool {
         self.own_position_words == 0
+    }
+}
+
+impl SceneFacts {
+    /// Records of casters that there are, also those that no caster has.
+    pub fn caster_slots(&self) -> usize {
+        self.casters.iter().map(|caster| caster.slot + 1).max().unwrap_or(0)
     }
 }
 

@@ -44,6 +44,8 @@ pub enum Omitted {
     BlockerSearch,
     /// 32-bit moments and stronger warps.
     FullMoments,
+    /// All stages and passes, in this frame.
+    Redrawing,
 }
 
 /// Why something was left out.
@@ -94,6 +96,8 @@ pub enum Reason {
     NothingIsSkinned,
     /// All casters bring their own positions.
     PositionsAreTheCallers,
+    /// Neither the light nor anything within its reach changed: its maps stand.
+    NothingChanged,
 }
 
 impl fmt::Display for Omitted {
@@ -111,6 +115,7 @@ impl fmt::Display for Omitted {
             Self::FacePlanes => "planes of faces",
             Self::BlockerSearch => "search for blockers",
             Self::FullMoments => "32-bit moments",
+            Self::Redrawing => "all stages and passes",
         };
         formatter.pad(text)
     }
@@ -141,6 +146,7 @@ impl fmt::Display for Reason {
             Self::ReceivesOnly => "it only receives",
             Self::NothingIsInstanced => "each caster has one matrix",
             Self::NothingIsSkinned => "positions come as they are drawn",
+            Self::NothingChanged => "neither the light nor anything within its reach changed: its maps stand",
             Self::PositionsAreTheCallers => "all positions are the caller's: faces are tested by them",
         })
     }

@@ -27,4 +27,4 @@ pub use pipeline::{EntryPoints, PipelinePlan};
 pub use plan::{FramePlan, PlanInput};
 pub use stage::Stage;
 pub use texture::{TextureFormat, TextureKind, TexturePlan};
-pub use visibility::{MapSampler, VisibilityKind};
+pub use visibility::{MapSampler, ViewChoice, VisibilityKind};

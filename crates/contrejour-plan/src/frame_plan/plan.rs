@@ -14,8 +14,9 @@ use crate::{ShadowSettings, View, ViewCounts};
 pub struct PlanInput<'a> {
     /// What there is to shadow.
     pub scene: &'a SceneFacts,
-    /// The light's view.
-    pub view: &'a View,
+    /// The light's views, at least one. How many they are and whether the light has a size decides what is made; where they
+    /// look decides who casts.
+    pub views: &'a [View],
     /// How its shadow is made.
     pub settings: &'a ShadowSettings,
     /// What the device can do.
@@ -24,6 +25,8 @@ pub struct PlanInput<'a> {
     pub outputs: Outputs,
     /// Room that earlier frames are known to need on a page; zeros for a first frame.
     pub capacity: Capacity,
+    /// Buffers that lights beside this one need. All lights share pages and lists, so what one needs shapes them for all.
+    pub shared: &'a [BufferKind],
 }
 
 /// Everything that a frame of one light does and holds. Nothing else is created.
@@ -47,7 +50,7 @@ pub struct FramePlan {
     pub pipelines: Vec<PipelinePlan>,
     /// Pages, at least one; more where the device's buffers are too small for all meshes together.
     pub pages: Vec<PagePlan>,
-    /// Buffers by kind, then by page.
+    /// Buffers by kind, then by page. All lights share them, but for those [of the light](BufferKind::is_of_light).
     pub buffers: Vec<BufferPlan>,
     /// Textures.
     pub textures: Vec<TexturePlan>,
@@ -79,6 +82,7 @@ impl FramePlan {
         let smoothies = smoothies_wanted(input, &mut left_out);
         let stages = stages(input, smoothies.is_some(), &mut left_out);
         let passes = passes(input, smoothies.as_ref(), &mut left_out);
+        let visibility = VisibilityKind::of(&settings.technique, &passes, has_size(input));
         let limit = device.max_texture_dimension_2d;
         if !passes.is_empty() && settings.map_size > limit {
             return Err(PlanError::MapTooLarge { map_size: settings.map_size, limit });
@@ -93,19 +97,22 @@ impl FramePlan {
         left_out.add(Omitted::Deformation, Reason::NothingIsSkinned);
 
         // List what that needs.
-        let kinds: Vec<_> = BufferKind::ALL.into_iter().filter(|kind| is_bound(*kind, &stages, &passes)).collect();
+        let is_needed = |kind: &BufferKind| is_bound(*kind, &stages, &passes) || input.shared.contains(kind);
+        let kinds: Vec<_> = BufferKind::ALL.into_iter().filter(is_needed).collect();
         let pages = pages(scene, &kinds, device, input.capacity);
-        let buffers = buffers(&kinds, &SceneSizes::new(scene), &pages, device)?;
+        let buffers = buffers(&kinds, &SceneSizes::new(scene, input.views.len()), &pages, device)?;
+        let kept = |kind: &TextureKind| visibility.is_some_and(|visibility| visibility.textures().contains(kind));
+        let layers = |kind: &TextureKind| if kept(kind) { input.views.len() as u32 } else { 1 };
         let textures = passes.iter().flat_map(|pass| pass.fills());
-        let textures = textures.map(|kind| TexturePlan::new(*kind, settings, device)).collect();
+        let textures = textures.map(|kind| TexturePlan::new(*kind, settings, device, layers(kind))).collect();
         let of_stages = stages.iter().map(|stage| PipelinePlan::of_stage(*stage));
         let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, &settings.technique));
         let pipelines = of_stages.chain(of_passes).collect();
 
-        let has_edges = stages.contains(&Stage::DetectSilhouette);
+        let has_edges = kinds.contains(&BufferKind::Edges);
         let pages = (pages.into_iter().enumerate())
             .map(|(index, page)| PagePlan {
-                counts: counts(&page, scene.casters.len(), has_edges, &buffers, index),
+                counts: counts(&page, scene.caster_slots(), has_edges, &buffers, index),
                 pieces: page.pieces,
                 casters: page.casters,
             })
@@ -115,7 +122,7 @@ impl FramePlan {
         Ok(Self {
             outputs,
             settings: settings.on_device(device),
-            visibility: VisibilityKind::of(&settings.technique, &passes, input.view.light_size > 0.0),
+            visibility,
             stages,
             passes,
             pipelines,
@@ -159,6 +166,11 @@ impl FramePlan {
     }
 }
 
+/// Whether the light has a size: all its views show the same one.
+pub(super) fn has_size(input: &PlanInput<'_>) -> bool {
+    input.views.iter().any(|view| view.light_size > 0.0)
+}
+
 /// Whether a stage or a pass binds a buffer. Receivers look the maps up through the receiver view.
 fn is_bound(kind: BufferKind, stages: &[Stage], passes: &[Pass]) -> bool {
     let by_receivers = kind == BufferKind::ReceiverView && !passes.is_empty();
@@ -177,7 +189,10 @@ fn buffers(
     for &kind in kinds {
         if kind.is_paged() {
             for (page, index) in pages.iter().zip(0..) {
-                buffers.push(page.sizes.buffer(kind, index, device)?);
+                buffers.push(match kind {
+                    BufferKind::LightView => scene.light_views(index),
+                    _ => page.sizes.buffer(kind, index, device)?,
+                });
             }
         } else {
             buffers.push(scene.buffer(kind, device)?);

@@ -15,6 +15,7 @@ const INDIRECT_DRAWS: u64 = 3;
 /// it may in the next frame, and nothing is to be created then.
 pub(super) struct SceneSizes {
     casters: u64,
+    views: u64,
     position_words: u64,
     face_blocks: u64,
     edge_blocks: u64,
@@ -45,16 +46,22 @@ pub(super) struct PageSizes {
 }
 
 impl SceneSizes {
-    pub fn new(scene: &SceneFacts) -> Self {
+    pub fn new(scene: &SceneFacts, views: usize) -> Self {
         let mesh_words: u64 = scene.meshes.iter().map(|mesh| 3 * u64::from(mesh.vertices)).sum();
         let own_words: u64 = scene.casters.iter().map(|caster| caster.own_position_words).sum();
         let cast = scene.casters.iter().map(|caster| MeshPiece::whole(caster.mesh, &scene.meshes[caster.mesh]));
         Self {
-            casters: scene.casters.len() as u64,
+            casters: scene.caster_slots() as u64,
+            views: views as u64,
             position_words: mesh_words + own_words,
             face_blocks: cast.clone().map(|mesh| u64::from(mesh.face_blocks())).sum(),
             edge_blocks: cast.map(|mesh| u64::from(mesh.edge_blocks())).sum(),
         }
+    }
+
+    /// The views of the light, as a page has them.
+    pub fn light_views(&self, page: usize) -> BufferPlan {
+        BufferPlan::new(BufferKind::LightView, page, self.views)
     }
 
     /// A buffer that serves all pages.
@@ -66,6 +73,7 @@ impl SceneSizes {
         let items = match kind {
             BufferKind::Positions => self.position_words,
             BufferKind::CasterPlaces | BufferKind::CasterLights => self.casters,
+            BufferKind::ReceiverView => self.views,
             BufferKind::Lit => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
             BufferKind::OutlineSides => self.edge_blocks * u64::from(OUTLINE_WORDS_PER_BLOCK),
             _ => 1,
@@ -79,7 +87,7 @@ impl PageSizes {
     pub fn new(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity) -> Self {
         let lacks_edges = !kinds.contains(&BufferKind::Edges);
         let lacks_planes = !scene.casters.iter().any(CasterFacts::has_planes);
-        Self { casters: scene.casters.len() as u64, lacks_planes, lacks_edges, floor, ..Self::default() }
+        Self { casters: scene.caster_slots() as u64, lacks_planes, lacks_edges, floor, ..Self::default() }
     }
 
     /// Makes room for a piece in the pools.

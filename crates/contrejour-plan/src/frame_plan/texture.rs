@@ -53,9 +53,11 @@ pub struct TexturePlan {
     pub format: TextureFormat,
     /// Texels along each side of the first level.
     pub size: u32,
+    /// Layers: one for each view, or one where a texture only serves while a view is drawn.
+    pub layers: u32,
     /// Levels, each half as large as the one before.
     pub levels: u32,
-    /// Size of the texels of all levels in bytes.
+    /// Size of the texels of all layers and levels in bytes.
     pub bytes: u64,
 }
 
@@ -121,12 +123,12 @@ impl TextureFormat {
 }
 
 impl TexturePlan {
-    pub(super) fn new(kind: TextureKind, settings: &ShadowSettings, device: &DeviceFacts) -> Self {
+    pub(super) fn new(kind: TextureKind, settings: &ShadowSettings, device: &DeviceFacts, layers: u32) -> Self {
         let (size, format) = (settings.map_size, kind.format(settings, device));
         let levels = if kind == TextureKind::Moments { moment_levels(settings) } else { 1 };
         let sides = (0..levels).map(|level| u64::from((size >> level).max(1)));
         let texels: u64 = sides.map(|side| side * side).sum();
-        Self { kind, format, size, levels, bytes: texels * format.texel_bytes() }
+        Self { kind, format, size, layers, levels, bytes: u64::from(layers) * texels * format.texel_bytes() }
     }
 }
 
@@ -150,9 +152,9 @@ mod tests {
         let technique = "evsm-pcss".parse().expect("there is such a technique");
         let settings = ShadowSettings { map_size: 6, technique, ..ShadowSettings::default() };
         let device = DeviceFacts { float32_filterable: true, ..DeviceFacts::default() };
-        let plan = TexturePlan::new(TextureKind::Moments, &settings, &device);
+        let plan = TexturePlan::new(TextureKind::Moments, &settings, &device, 1);
         assert_eq!((plan.levels, plan.bytes), (3, 16 * (36 + 9 + 1)));
-        let plan = TexturePlan::new(TextureKind::Moments, &settings, &DeviceFacts::default());
+        let plan = TexturePlan::new(TextureKind::Moments, &settings, &DeviceFacts::default(), 1);
         assert_eq!((plan.format, plan.bytes), (TextureFormat::Rgba16Float, 8 * (36 + 9 + 1)));
     }
 
@@ -162,7 +164,7 @@ mod tests {
             let mut technique: Technique = "vsm".parse().expect("there is such a technique");
             technique.set("blur_texels", texels).expect("in range");
             let settings = ShadowSettings { map_size: 64, technique, ..ShadowSettings::default() };
-            TexturePlan::new(TextureKind::Moments, &settings, &DeviceFacts::default()).levels
+            TexturePlan::new(TextureKind::Moments, &settings, &DeviceFacts::default(), 1).levels
         };
         assert_eq!([0.0, 1.0, 4.0, 5.0, 8.0, 1024.0].map(levels), [1, 1, 3, 4, 4, 7]);
     }
@@ -173,7 +175,7 @@ mod tests {
             let bytes = |depth_precision| {
                 let settings = ShadowSettings { depth_precision, ..ShadowSettings::default() };
                 let device = DeviceFacts { float32_filterable: true, ..DeviceFacts::default() };
-                TexturePlan::new(kind, &settings, &device).bytes
+                TexturePlan::new(kind, &settings, &device, 1).bytes
             };
             assert_eq!(bytes(DepthPrecision::Bits32), 2 * bytes(DepthPrecision::Bits16));
         }

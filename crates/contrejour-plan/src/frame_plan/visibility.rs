@@ -1,7 +1,7 @@
 //! Which visibility function a frame's receivers call.
 
 use super::{Pass, TextureKind};
-use crate::{GaussianKernel, Technique, VarianceSoftness};
+use crate::{CubeFace, GaussianKernel, LightKind, Technique, VarianceSoftness};
 
 /// What the visibility function is, and so which maps it reads. Where it changes, the function's text and its bind group
 /// layout do: a caller keeps one pipeline for each kind that it meets.
@@ -33,6 +33,38 @@ pub enum VisibilityKind {
     SmoothiesSplit,
     /// Shadow map and smoothie buffer.
     SmoothiesPacked,
+}
+
+/// How receivers find the view of a light that shows them. Like a [`VisibilityKind`], it shapes the function's text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum ViewChoice {
+    /// There is one.
+    Only,
+    /// By the largest component of the direction from the light, as [`CubeFace::of`](crate::CubeFace::of) says.
+    CubeFace,
+}
+
+impl ViewChoice {
+    /// Both ways.
+    pub const ALL: [Self; 2] = [Self::Only, Self::CubeFace];
+
+    /// How the views of a light are told apart.
+    pub fn of(light: &LightKind) -> Self {
+        match light {
+            LightKind::Point { .. } => Self::CubeFace,
+            _ => Self::Only,
+        }
+    }
+
+    /// Views that there are.
+    pub const fn views(self) -> usize {
+        match self {
+            Self::Only => 1,
+            Self::CubeFace => CubeFace::ALL.len(),
+        }
+    }
 }
 
 /// How a map is looked up.

@@ -3,7 +3,6 @@
 use contrejour_layout::{LightView, ReceiverView};
 
 use super::caster_place::words_of;
-use super::{Projection, View};
 use super::{CastersInFront, Projection, View};
 use crate::{DepthPrecision, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, VarianceSoftness};
 
@@ -76,7 +75,7 @@ impl View {
             },
             caster_count: counts.casters,
             culls_casters: 1,
-            guard_ndc: self.guard_ndc(settings) as f32,
+            reach_ndc: self.reach_ndc(settings) as f32,
             light_world: rows_of(self.light_world.to_array()),
             light_clip_from_world: rows_of(self.light_clip_from_world.to_cols_array()),
         }
@@ -129,7 +128,7 @@ impl View {
 
     /// How far outside the frustum's sides a caster still matters, in NDC: it may have a smoothie in the map, and filters
     /// look there.
-    pub fn guard_ndc(&self, settings: &ShadowSettings) -> f64 {
+    pub fn reach_ndc(&self, settings: &ShadowSettings) -> f64 {
         let widest = match &settings.technique {
             Technique::Smoothies(smoothies) => self.widest_smoothie_ndc(smoothies, settings.map_size),
             _ => 0.0,

@@ -4,8 +4,8 @@ use glam::dcamera::rh::proj::directx::{orthographic, perspective};
 use glam::dcamera::rh::view::look_to_mat4;
 use glam::{DMat4, DVec3, DVec4};
 
-use super::power_of_two::exponent_of;
 use super::cube_views::cube_views;
+use super::power_of_two::exponent_of;
 use crate::{Light, LightError, LightKind};
 
 /// Directions whose y is more than this look up or down: the image plane's up is then an axis other than y.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use contrejour_gpu::{ShadowOptions, Shadows};
+use contrejour_gpu::{Maps, ShadowOptions, Shadows};
 use contrejour_plan::{FramePlan, Light, Outputs, ShadowSettings};
 use cpu_time::ThreadTime;
 
@@ -53,9 +53,10 @@ impl Contestant {
     pub(super) fn new(scene: Arc<JudgedScene>, settings: &ShadowSettings) -> Result<Self, NewContestantError> {
         let JudgedScene { gpu, local, casters, receivers, light } = &*scene;
         let options = ShadowOptions { settings: *settings, outputs: Outputs::Maps, ..ShadowOptions::default() };
-        let mut cast = CastShadows::new(gpu, casters, &options)?;
-        cast.prepare(gpu, casters, &local.light(light))?;
-        let pass = VisibilityPass::new(gpu, &cast.shadows, receivers);
+        let light_local = local.light(light);
+        let mut cast = CastShadows::new(gpu, casters, &light_local, &options)?;
+        cast.prepare(gpu, &light_local)?;
+        let pass = VisibilityPass::new(gpu, &cast, receivers);
         let usage = wgpu::TextureUsages::COPY_SRC;
         let target = target_texture(gpu, "judged visibility", receivers.size(), 1, VISIBILITY_FORMAT, usage);
         let target_view = target.create_view(&wgpu::TextureViewDescriptor::default());
@@ -83,17 +84,16 @@ impl Contestant {
     }
 
     fn draw_once(&mut self, light_local: &Light) -> Result<FrameCost, DrawError> {
-        let JudgedScene { gpu, casters, receivers, .. } = &*self.scene;
+        let JudgedScene { gpu, receivers, .. } = &*self.scene;
         let cpu_clock = ThreadTime::now();
-        self.cast.prepare(gpu, casters, light_local)?;
-        let shadows = &mut self.cast.shadows;
-        if !self.pass.fits(shadows) {
+        self.cast.prepare(gpu, light_local)?;
+        if !self.pass.fits(&self.cast) {
             // The light gained or lost its size.
-            self.pass = VisibilityPass::new(gpu, shadows, receivers);
+            self.pass = VisibilityPass::new(gpu, &self.cast, receivers);
         }
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("judged") });
-        shadows.encode(&mut encoder, &mut self.timer);
-        self.pass.encode(&mut encoder, shadows, receivers, &self.target_view, &mut self.timer);
+        self.cast.shadows.encode(&mut encoder, &mut self.timer);
+        self.pass.encode(&mut encoder, &self.cast, receivers, &self.target_view, &mut self.timer);
         self.timer.resolve(&mut encoder);
         let commands = encoder.finish();
         let wall_clock = Instant::now();
@@ -115,7 +115,7 @@ impl Contestant {
             wall_ms,
             gpu_ms: whole_ms,
             passes,
-            is_unchanged: shadows.stats().is_unchanged,
+            is_unchanged: self.cast.shadows.stats().lights_redone == 0,
             repeats: 0,
         })
     }
@@ -131,9 +131,19 @@ impl Contestant {
         Ok(bytemuck::pod_collect_to_vec(&texels))
     }
 
-    /// The shadows themselves: their maps, plan and counters.
+    /// The shadows themselves: their counters and lists.
     pub fn shadows(&self) -> &Shadows {
         &self.cast.shadows
+    }
+
+    /// The light's plan; `None` where its device failed.
+    pub fn plan(&self) -> Option<&FramePlan> {
+        self.cast.shadows.plan(self.cast.light)
+    }
+
+    /// The light's maps.
+    pub fn maps(&self) -> Maps<'_> {
+        self.cast.shadows.maps(self.cast.light)
     }
 
     /// Bytes of the light's maps in the last frame.
@@ -147,6 +157,6 @@ impl Contestant {
     }
 
     fn plan_sum(&self, sum: impl FnOnce(&FramePlan) -> u64) -> u64 {
-        self.cast.shadows.plan().map_or(0, sum)
+        self.plan().map_or(0, sum)
     }
 }

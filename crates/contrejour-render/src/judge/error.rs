@@ -1,8 +1,6 @@
 //! Why nothing can be judged.
 
-use contrejour_gpu::PrepareError;
-
-use crate::casters::{CastShadowsError, CasterTopologyError};
+use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 use crate::gpu::DeviceFault;
 use crate::judge::TooManyFaces;
 use crate::readback::ReadError;
@@ -37,7 +35,7 @@ pub enum NewContestantError {
     Shadows(#[from] CastShadowsError),
     /// The scene's light or the device does not allow its shadow.
     #[error(transparent)]
-    Prepare(#[from] PrepareError),
+    Prepare(#[from] PrepareShadowsError),
     /// The timestamps cannot be set up.
     #[error("the graphics device's timestamps cannot be used")]
     Timer(#[from] wgpu_profiler::CreationError),

@@ -1,9 +1,11 @@
 //! The full-screen pass that asks a technique for the visibility of all receivers.
 
-use contrejour_gpu::{PassTimer, Shadows, VisibilityKind};
+use contrejour_gpu::{PassTimer, ViewChoice, VisibilityKind};
 
 use super::receiver_pass::ReceiverTarget;
 use crate::Gpu;
+use crate::casters::CastShadows;
+use crate::picture_pass::kind_of;
 use crate::shaders::JUDGED_VISIBILITY;
 
 /// Format of visibility, 0 dark to 1 lit.
@@ -18,21 +20,22 @@ const VISIBILITY_GROUP: u32 = 1;
 /// The pass, for one kind of visibility.
 #[derive(Debug)]
 pub(super) struct VisibilityPass {
-    kind: VisibilityKind,
+    kind: (VisibilityKind, ViewChoice),
     pipeline: wgpu::RenderPipeline,
 }
 
 impl VisibilityPass {
     /// The pass for shadows that were prepared.
-    pub fn new(gpu: &Gpu, shadows: &Shadows, receivers: &ReceiverTarget) -> Self {
-        let wgsl = format!("{JUDGED_VISIBILITY}{}", shadows.visibility_wgsl(VISIBILITY_GROUP));
+    pub fn new(gpu: &Gpu, cast: &CastShadows, receivers: &ReceiverTarget) -> Self {
+        let CastShadows { shadows, light } = cast;
+        let wgsl = format!("{JUDGED_VISIBILITY}{}", shadows.visibility_wgsl(*light, VISIBILITY_GROUP));
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("judged visibility"),
             source: wgpu::ShaderSource::Wgsl(wgsl.into()),
         });
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("judged visibility"),
-            bind_group_layouts: &[Some(&receivers.layout), Some(shadows.visibility_layout())],
+            bind_group_layouts: &[Some(&receivers.layout), Some(shadows.visibility_layout(*light))],
             immediate_size: 0,
         });
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -56,18 +59,18 @@ impl VisibilityPass {
             multiview_mask: None,
             cache: None,
         });
-        Self { kind: shadows.visibility_kind(), pipeline }
+        Self { kind: kind_of(cast), pipeline }
     }
 
     /// Whether the pass looks up the maps that these shadows have.
-    pub fn fits(&self, shadows: &Shadows) -> bool {
-        self.kind == shadows.visibility_kind()
+    pub fn fits(&self, cast: &CastShadows) -> bool {
+        self.kind == kind_of(cast)
     }
 
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        shadows: &Shadows,
+        cast: &CastShadows,
         receivers: &ReceiverTarget,
         target: &wgpu::TextureView,
         timer: &mut T,
@@ -91,7 +94,7 @@ impl VisibilityPass {
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(RECEIVER_GROUP, &receivers.bind_group, &[]);
-            pass.set_bind_group(VISIBILITY_GROUP, shadows.visibility_bind_group(), &[]);
+            pass.set_bind_group(VISIBILITY_GROUP, cast.shadows.visibility_bind_group(cast.light), &[]);
             pass.draw(0..3, 0..1);
         }
         timer.end(query, encoder);

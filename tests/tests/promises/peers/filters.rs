@@ -89,7 +89,7 @@ impl Drawn {
         // Receivers that are moved look elsewhere.
         filter.bias.normal_texels = 0.0;
         let (found, contestant) = scene.drawn(&filter)?;
-        let map = contestant.shadows().maps().shadow_hardware_depth.ok_or("filters compare with hardware depth")?;
+        let map = contestant.maps().shadow_hardware_depth.ok_or("filters compare with hardware depth")?;
         let depths: Vec<f32> = bytemuck::pod_collect_to_vec(&read_texture(scene.gpu(), map, 4).map_err(text_of)?);
 
         let view = views(scene.light()).map_err(text_of)?[0];

@@ -74,7 +74,7 @@ fn warp_errors(scene: &JudgedScene, exponents: [f64; 4]) -> Result<Vec<f64>, Str
 /// How far a technique is from percentage-closer filtering with the kernel of the blur.
 fn error_to_pcf(scene: &JudgedScene, variance: &ShadowSettings, blur_texels: f64) -> Result<f64, String> {
     let (found, contestant) = scene.drawn(variance)?;
-    let map = contestant.shadows().maps().shadow_depth.ok_or("moments are made from linear depth")?;
+    let map = contestant.maps().shadow_depth.ok_or("moments are made from linear depth")?;
     let depths: Vec<f32> = bytemuck::pod_collect_to_vec(&read_texture(scene.gpu(), map, 4).map_err(text_of)?);
 
     // The floor is the farthest depth of all: a texel that is clearly nearer blocks all of it.

@@ -42,7 +42,7 @@ impl Floats for LightView {
             self.texel_world,
             self.depth_unit,
             self.warp_exponent,
-            self.guard_ndc,
+            self.reach_ndc,
         ]
         .into_iter()
     }

@@ -35,7 +35,7 @@ fn spot(radius: f64) -> View {
 
 fn caster(name: &str, mesh: usize, world_from_object: DMat4) -> CasterFacts {
     let bounds = Some(ObjectBox { min: [-0.5; 3], max: [0.5; 3], world_from_object });
-    CasterFacts { name: name.to_owned(), mesh, bounds, own_position_words: 0 }
+    CasterFacts { slot: 0, name: name.to_owned(), mesh, bounds, own_position_words: 0 }
 }
 
 fn caster_at(name: &str, mesh: usize, place: DVec3) -> CasterFacts {
@@ -59,33 +59,40 @@ fn smoothies(change: impl FnOnce(&mut SmoothieSettings)) -> ShadowSettings {
 
 struct Case {
     scene: SceneFacts,
-    view: View,
+    views: Vec<View>,
     settings: ShadowSettings,
     device: DeviceFacts,
     outputs: Outputs,
     capacity: Capacity,
+    shared: Vec<BufferKind>,
 }
 
 impl Case {
     fn new(scene: SceneFacts) -> Self {
         Self {
             scene,
-            view: spot(0.2),
+            views: vec![spot(0.2)],
             settings: smoothies(|_| ()),
             device: DeviceFacts::default(),
             outputs: Outputs::Maps,
             capacity: Capacity::default(),
+            shared: Vec::new(),
         }
     }
 
     fn plan(&self) -> Result<FramePlan, PlanError> {
+        let mut scene = self.scene.clone();
+        for (slot, caster) in scene.casters.iter_mut().enumerate() {
+            caster.slot = slot;
+        }
         FramePlan::new(&PlanInput {
-            scene: &self.scene,
-            view: &self.view,
+            scene: &scene,
+            views: &self.views,
             settings: &self.settings,
             device: &self.device,
             outputs: self.outputs,
             capacity: self.capacity,
+            shared: &self.shared,
         })
     }
 
@@ -283,7 +290,7 @@ fn a_light_without_size_needs_no_search() {
     let mut case = Case::new(cube_scene());
     case.settings.technique = "pcss".parse().expect("listed");
     assert!(matches!(case.good().visibility, Some(VisibilityKind::Pcss { blocker_samples: 16, filter_samples: 32 })));
-    case.view = spot(0.0);
+    case.views = vec![spot(0.0)];
     let plan = case.good();
     assert_eq!(plan.visibility, Some(VisibilityKind::Compared(MapSampler::CompareLinear)));
     assert_eq!(plan.reason(&Omitted::BlockerSearch), Some(Reason::LightHasNoSize));
@@ -292,7 +299,7 @@ fn a_light_without_size_needs_no_search() {
 #[test]
 fn a_light_without_size_has_hard_shadows() {
     let mut case = Case::new(cube_scene());
-    case.view = spot(0.0);
+    case.views = vec![spot(0.0)];
     let plan = case.good();
     assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
     assert_eq!(plan.visibility, Some(VisibilityKind::Compared(MapSampler::CompareLinear)));
@@ -541,4 +548,34 @@ fn a_plan_is_json() {
     assert_eq!(json["buffers"][0]["kind"], "positions");
     assert_eq!(json["settings"]["technique"]["smoothies"]["width"], "from-light-size");
     assert_eq!(json["left_out"][0]["reason"], "device_blends_no_floats");
+}
+
+#[test]
+fn six_views_have_a_layer_each() {
+    let mut case = Case::new(cube_scene());
+    case.views = vec![spot(0.2); 6];
+    let plan = case.good();
+    let layers: Vec<_> = plan.textures.iter().map(|texture| (texture.kind, texture.layers)).collect();
+    let kept = [TextureKind::ShadowDepth, TextureKind::SmoothieDepth, TextureKind::SmoothieAlpha];
+    assert!(layers.iter().all(|(kind, layers)| *layers == if kept.contains(kind) { 6 } else { 1 }), "{layers:?}");
+    assert_eq!(bytes(&plan, BufferKind::LightView), Some(6 * 256));
+    assert_eq!(bytes(&plan, BufferKind::ReceiverView), Some(6 * 160));
+    case.settings.technique = "vsm".parse().expect("listed");
+    let plan = case.good();
+    let layers = |kind| plan.texture(kind).map(|texture| texture.layers);
+    assert_eq!((layers(TextureKind::Moments), layers(TextureKind::ShadowDepth)), (Some(6), Some(1)));
+}
+
+#[test]
+fn lights_that_share_lists_list_the_same() {
+    let mut case = Case::new(cube_scene());
+    let smoothies = case.good();
+    case.settings.technique = Technique::ShadowMap;
+    case.shared = smoothies.buffers.iter().map(|buffer| buffer.kind).collect();
+    let plan = case.plan().expect("can be planned");
+    let shared = |plan: &FramePlan| -> Vec<BufferPlan> {
+        plan.buffers.iter().filter(|buffer| !buffer.kind.is_of_light()).copied().collect()
+    };
+    assert_eq!(shared(&plan), shared(&smoothies));
+    assert_eq!((&plan.pages, plan.stages.as_slice()), (&smoothies.pages, Stage::PLACEMENT));
 }

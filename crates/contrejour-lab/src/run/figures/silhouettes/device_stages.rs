@@ -3,9 +3,11 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use contrejour_gpu::{CasterInput, FrameInput, MeshHandle, PassTimer, Positions, ShadowOptions, Shadows};
+use contrejour_gpu::{CasterInput, LightHandle, PassTimer, Positions, ShadowOptions, Shadows};
 use contrejour_plan::{Light, ShadowSettings, Stage};
-use contrejour_render::{CastShadowsError, Contestant, DrawError, Gpu, Judge, NewContestantError, rocked};
+use contrejour_render::{
+    CastShadowsError, Contestant, DrawError, Gpu, Judge, NewContestantError, PrepareShadowsError, rocked,
+};
 use glam::DMat4;
 
 use super::super::super::error::RunError;
@@ -34,7 +36,7 @@ enum Clock {
 struct StagesAlone {
     gpu: Gpu,
     shadows: Shadows,
-    mesh: MeshHandle,
+    light: LightHandle,
 }
 
 impl DeviceStages {
@@ -77,18 +79,21 @@ fn is_stage(name: &str) -> bool {
 impl StagesAlone {
     fn new(gpu: &Gpu, mesh: &LoneMesh, settings: &ShadowSettings) -> Result<Self, NewContestantError> {
         let options = ShadowOptions { settings: *settings, ..ShadowOptions::default() };
-        let mut shadows = Shadows::new(&gpu.device, &options).map_err(CastShadowsError::from)?;
-        let mesh = shadows.add_mesh(Arc::clone(&mesh.topology)).map_err(CastShadowsError::from)?;
-        Ok(Self { gpu: gpu.clone(), shadows, mesh })
+        let mut shadows = Shadows::new(&gpu.device).map_err(CastShadowsError::from)?;
+        let handle = shadows.add_mesh(Arc::clone(&mesh.topology)).map_err(CastShadowsError::from)?;
+        let caster = CasterInput { mesh: handle, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
+        shadows.add_caster(&caster).map_err(CastShadowsError::from)?;
+        let light = shadows.add_light(&gpu.device, &mesh.scene.light, &options).map_err(CastShadowsError::from)?;
+        Ok(Self { gpu: gpu.clone(), shadows, light })
     }
 
     /// None where there was nothing to do.
     fn time_ms(&mut self, light: &Light) -> Result<Option<f64>, DrawError> {
-        let Self { gpu, shadows, mesh } = self;
+        let Self { gpu, shadows, light: handle } = self;
         let Gpu { device, queue, .. } = &*gpu;
-        let casters = [CasterInput { mesh: *mesh, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh }];
         for _ in 0..REPEATS_MAX {
-            shadows.prepare(device, queue, &FrameInput { light, casters: &casters })?;
+            shadows.set_light(*handle, light).map_err(PrepareShadowsError::from)?;
+            shadows.prepare(device, queue).map_err(PrepareShadowsError::from)?;
             let mut cut = CutAfterStages { device: device.clone(), stages: None };
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             shadows.encode(&mut encoder, &mut cut);

@@ -1,0 +1,253 @@
+//! The lights of a scene: what is known of each, and what it has on the device.
+
+use contrejour_layout::{Counters, LightView, ReceiverView};
+use contrejour_plan::{
+    BufferKind, Capacity, DeviceFacts, FramePlan, LeftOut, Light, ObjectBox, Omitted, Outputs, PlanError, PlanInput,
+    Reason, SceneFacts, Stage, View, ViewChoice, guard_ndc, views_with_guard,
+};
+
+use crate::error::ShadowLightError;
+use crate::frame::{Frame, Made};
+use crate::inputs::ShadowOptions;
+use crate::pipelines::Pipelines;
+use crate::readback::CounterReadback;
+use crate::resources::Buffers;
+use crate::slots::Key;
+use crate::timer::PassTimer;
+use crate::visibility::Visibility;
+
+/// Names a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct LightHandle(pub(crate) Key);
+
+/// A light with its views, its plan and its maps.
+#[derive(Debug)]
+pub(crate) struct LightState {
+    pub options: ShadowOptions,
+    pub choice: ViewChoice,
+    pub views: Vec<View>,
+    /// What is made for it; `None` before the first frame.
+    pub plan: Option<FramePlan>,
+    pub frame: Frame,
+    pub visibility: Option<Visibility>,
+    pub counters: Option<Counters>,
+    readback: CounterReadback,
+    records: Records,
+    latest_is_complete: bool,
+    /// Whether its records are to be uploaded.
+    has_new_records: bool,
+    /// Whether its maps are to be made, or made anew.
+    is_due: bool,
+}
+
+/// What a light uploads.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Records {
+    /// Those of all views on the first page, then on the next: pages differ in their counts.
+    light_views: Vec<LightView>,
+    receiver_views: Vec<ReceiverView>,
+}
+
+/// What decides a light's plan beside its options and the scene.
+fn shape(views: &[View]) -> (usize, bool) {
+    (views.len(), views.iter().any(|view| view.light_size > 0.0))
+}
+
+fn views(light: &Light, options: &ShadowOptions) -> Result<Vec<View>, ShadowLightError> {
+    Ok(views_with_guard(light, guard_ndc(light, &options.settings))?)
+}
+
+impl LightState {
+    /// # Errors
+    ///
+    /// The light or the settings are out of range.
+    pub fn new(device: &wgpu::Device, light: &Light, options: &ShadowOptions) -> Result<Self, ShadowLightError> {
+        options.settings.validate()?;
+        Ok(Self {
+            options: *options,
+            choice: ViewChoice::of(&light.kind),
+            views: views(light, options)?,
+            plan: None,
+            frame: Frame::default(),
+            visibility: None,
+            counters: None,
+            readback: CounterReadback::new(device),
+            records: Records::default(),
+            latest_is_complete: false,
+            has_new_records: true,
+            is_due: true,
+        })
+    }
+
+    /// Takes another state of the light over; says whether that needs another plan.
+    ///
+    /// # Errors
+    ///
+    /// The light is out of range; then nothing has changed.
+    pub fn change(&mut self, light: &Light) -> Result<bool, ShadowLightError> {
+        let views = views(light, &self.options)?;
+        if self.views == views {
+            return Ok(false);
+        }
+        let choice = ViewChoice::of(&light.kind);
+        let needs_plan = shape(&self.views) != shape(&views) || self.choice != choice;
+        (self.views, self.choice) = (views, choice);
+        self.has_new_records = true;
+        Ok(needs_plan)
+    }
+
+    /// # Errors
+    ///
+    /// The device can't hold what the light needs.
+    pub fn plan(
+        &self,
+        scene: &SceneFacts,
+        device: &DeviceFacts,
+        capacity: Capacity,
+        shared: &[BufferKind],
+    ) -> Result<FramePlan, PlanError> {
+        let ShadowOptions { settings, outputs, .. } = &self.options;
+        let (views, outputs) = (&self.views[..], *outputs);
+        FramePlan::new(&PlanInput { scene, views, settings, device, outputs, capacity, shared })
+    }
+
+    /// Makes what a plan lists for this light.
+    pub fn follow(&mut self, device: &wgpu::Device, plan: FramePlan, (shared, pipelines): (&Buffers, &mut Pipelines)) {
+        let made = self.frame.follow(device, &plan, self.views.len(), (shared, pipelines));
+        self.readback.make_room(device, plan.pages.len() * self.views.len());
+        self.follow_visibility(device, &plan, made);
+        self.is_due |= made.textures || self.plan.as_ref().is_none_or(|old| old.stages != plan.stages);
+        self.has_new_records = true;
+        self.plan = Some(plan);
+    }
+
+    fn follow_visibility(&mut self, device: &wgpu::Device, plan: &FramePlan, made: Made) {
+        let Frame { buffers, textures, .. } = &self.frame;
+        let kind = plan.visibility.map(|kind| (kind, self.choice));
+        if self.visibility.as_ref().map(|visibility| (visibility.kind, visibility.choice)) != kind {
+            self.visibility = kind.map(|(kind, choice)| Visibility::new(device, kind, choice, buffers, textures));
+        } else if let Some(visibility) = &mut self.visibility
+            && (made.textures || made.buffers)
+        {
+            visibility.bind_again(device, buffers, textures);
+        }
+    }
+
+    /// Drops everything that was made, where the device failed.
+    pub fn drop_made(&mut self) {
+        self.plan = None;
+        self.frame = Frame::default();
+        self.visibility = None;
+        self.readback.drop_room();
+        self.latest_is_complete = false;
+        self.is_due = true;
+    }
+
+    /// Notes that something was or is in these boxes, everywhere where a box is `None`.
+    pub fn note_touched(&mut self, touched: &[Option<ObjectBox>]) {
+        let sees = |bounds: &Option<ObjectBox>| {
+            let Some(bounds) = bounds else { return true };
+            self.views.iter().any(|view| view.can_see(bounds, view.reach_ndc(&self.options.settings)))
+        };
+        // The list of silhouette edges does not end where the maps do.
+        let is_everywhere = self.options.outputs == Outputs::Silhouettes && !touched.is_empty();
+        self.is_due = self.is_due || is_everywhere || touched.iter().any(sees);
+    }
+
+    /// Lets its maps be made anew.
+    pub fn make_due(&mut self) {
+        self.is_due = true;
+    }
+
+    /// Uploads records that changed; returns their bytes.
+    pub fn upload(&mut self, queue: &wgpu::Queue) -> u64 {
+        let Some(plan) = &mut self.plan else { return 0 };
+        let mut bytes = 0;
+        if std::mem::take(&mut self.has_new_records) {
+            let records = Records::new(&self.views, plan);
+            if records != self.records || self.is_due {
+                let mut write = |(kind, page), data: &[u8]| {
+                    if let Some(buffer) = self.frame.buffers.find(kind, page) {
+                        queue.write_buffer(buffer, 0, data);
+                        bytes += data.len() as u64;
+                    }
+                };
+                for (views, page) in records.light_views.chunks(self.views.len()).zip(0..) {
+                    write((BufferKind::LightView, page), bytemuck::cast_slice(views));
+                }
+                write((BufferKind::ReceiverView, 0), bytemuck::cast_slice(&records.receiver_views));
+                self.is_due = true;
+                self.records = records;
+            }
+        }
+        // Told frame by frame.
+        let kept = LeftOut { what: Omitted::Redrawing, reason: Reason::NothingChanged };
+        plan.left_out.retain(|left_out| *left_out != kept);
+        if !self.is_due {
+            plan.left_out.push(kept);
+        }
+        bytes
+    }
+
+    pub fn is_due(&self) -> bool {
+        self.is_due
+    }
+
+    /// Records what fills its maps.
+    pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, shared: &Buffers, timer: &mut T) {
+        let Some(plan) = &self.plan else { return };
+        let of_page = plan.pages.iter().map(|page| page.capacity());
+        let capacities = std::iter::repeat_n(of_page, self.views.len()).flatten().collect();
+        let counted = if plan.stages.is_empty() { None } else { self.readback.begin(capacities) };
+        self.frame.encode(encoder, plan, shared, &self.records.light_views, counted, timer);
+        self.is_due = false;
+    }
+
+    /// Takes the counters that have arrived. Returns the overflows, and the room that was missing.
+    pub fn collect_counters(&mut self) -> (u64, Option<Capacity>) {
+        let mut overflows = 0;
+        let mut missing: Option<Capacity> = None;
+        for pages in self.readback.arrived() {
+            self.latest_is_complete = pages.iter().all(|page| page.capacity.holds(&page.counters));
+            for page in pages.iter().filter(|page| !page.capacity.holds(&page.counters)) {
+                missing = Some(missing.unwrap_or_default().max(page.capacity.grown_for(&page.counters)));
+            }
+            overflows += u64::from(!self.latest_is_complete);
+            self.counters = Some(pages.iter().map(|page| page.counters).sum());
+        }
+        self.is_due |= missing.is_some();
+        (overflows, missing)
+    }
+
+    /// Whether its stages count anything.
+    pub fn counts(&self) -> bool {
+        self.plan.as_ref().is_some_and(|plan| !plan.stages.is_empty())
+    }
+
+    /// Whether its latest counted frame had room for everything.
+    pub fn is_complete(&self) -> bool {
+        self.plan.is_some() && (!self.counts() || self.latest_is_complete)
+    }
+
+    pub fn is_pending(&self) -> bool {
+        self.readback.is_pending()
+    }
+}
+
+impl Records {
+    fn new(views: &[View], plan: &FramePlan) -> Self {
+        // The list of silhouette edges does not end where the maps do.
+        let culls_casters = (plan.outputs != Outputs::Silhouettes).into();
+        let has_edges = plan.has_stage(Stage::DetectSilhouette);
+        let light_view = |view: &View, page: usize| {
+            let record = view.light_view(&plan.settings, &plan.pages[page].counts);
+            let edge_block_count = if has_edges { record.edge_block_count } else { 0 };
+            LightView { culls_casters, edge_block_count, ..record }
+        };
+        let of_page = |page| views.iter().map(move |view| light_view(view, page));
+        Self {
+            light_views: (0..plan.pages.len()).flat_map(of_page).collect(),
+            receiver_views: views.iter().map(|view| view.receiver_view(&plan.settings)).collect(),
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Preparing a frame: what is needed is made, what changed is uploaded.
+
+use contrejour_plan::{BufferKind, FramePlan, PlanError, SceneFacts};
+
+use crate::device_watch::OpenScopes;
+use crate::error::{DeviceError, PrepareError};
+use crate::shadows::Shadows;
+
+impl Shadows {
+    /// Prepares a frame: follows the frame plans of all lights, uploads the records of lights and casters that changed.
+    ///
+    /// What a plan newly lists is created here and what none lists any more is dropped; a frame in which only lights and
+    /// casters move creates nothing and uploads their records alone. Lists that an earlier frame found too short grow here.
+    ///
+    /// # Errors
+    ///
+    /// The plans list more than the device allows; then nothing has changed, and the next prepare tries again. Where the
+    /// device itself fails ([`PrepareError::Device`]), what was made is dropped, and the next prepare makes all of it
+    /// again; until then there are no maps, as before the first.
+    pub fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), PrepareError> {
+        self.watch.check(device)?;
+        let late = self.watch.late();
+        self.keep_if(late)?;
+        self.collect_counters();
+        self.stats.set_up_bytes = 0;
+        if self.is_stale {
+            let plans = self.plans()?;
+            self.follow(device, queue, plans)?;
+            self.is_stale = false;
+        }
+        self.upload(queue);
+        Ok(())
+    }
+
+    /// The plans of all lights, in their order. Since they share pages and lists, what one needs shapes all.
+    fn plans(&self) -> Result<Vec<FramePlan>, PlanError> {
+        let scene = SceneFacts {
+            meshes: self.meshes.facts().to_vec(),
+            pieces: self.meshes.pieces().to_vec(),
+            casters: self.casters.facts(),
+            receivers: Vec::new(),
+        };
+        let plans = |shared: &[BufferKind]| -> Result<Vec<_>, PlanError> {
+            let plan = |(_, light): (usize, &crate::lights::LightState)| {
+                light.plan(&scene, &self.device_facts, self.capacity, shared)
+            };
+            self.lights.iter().map(plan).collect()
+        };
+        let alone = plans(&[])?;
+        let mut shared: Vec<_> = alone.iter().flat_map(|plan| &plan.buffers).map(|buffer| buffer.kind).collect();
+        shared.retain(|kind| !kind.is_of_light());
+        shared.sort_unstable();
+        shared.dedup();
+        // Lights that need the same need no second thought.
+        let is_alike = |plan: &FramePlan| shared.iter().all(|kind| plan.buffer(*kind).is_some());
+        if alone.iter().all(is_alike) { Ok(alone) } else { plans(&shared) }
+    }
+
+    /// Makes and fills what the plans list.
+    fn follow(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, plans: Vec<FramePlan>) -> Result<(), DeviceError> {
+        let bytes = plans.iter().map(planned_bytes).sum();
+        let scopes = OpenScopes::push(device);
+        self.stats.set_up_bytes =
+            self.buffers.follow(device, queue, plans.first(), (&mut self.meshes, &mut self.casters));
+        for ((_, light), plan) in self.lights.iter_mut().zip(plans) {
+            light.follow(device, plan, self.buffers.shared_and_pipelines());
+        }
+        self.buffers.drop_unused();
+        let made = self.watch.close(device, scopes, bytes);
+        self.keep_if(made)
+    }
+
+    /// Drops everything that was made where the device failed, so that no later frame uses something half-made.
+    fn keep_if(&mut self, made: Result<(), DeviceError>) -> Result<(), DeviceError> {
+        if made.is_err() {
+            self.buffers = Default::default();
+            self.lights.iter_mut().for_each(|(_, light)| light.drop_made());
+            self.is_stale = true;
+        }
+        made
+    }
+
+    /// Uploads what changed, and decides whose maps are made.
+    fn upload(&mut self, queue: &wgpu::Queue) {
+        let has_live_positions = self.casters.have_live_positions();
+        for (_, light) in self.lights.iter_mut() {
+            light.note_touched(self.casters.touched());
+            if has_live_positions {
+                light.make_due();
+            }
+        }
+        let mut bytes = self.buffers.upload_places(queue, &mut self.casters);
+        for (_, light) in self.lights.iter_mut() {
+            bytes += light.upload(queue);
+        }
+        let due = self.lights.iter().filter(|(_, light)| light.is_due()).count() as u32;
+        self.stats.upload_bytes = bytes;
+        self.stats.lights_redone = due;
+        self.stats.lights_kept = self.lights.iter().count() as u32 - due;
+        self.stats.singular_casters = self.casters.singular_count();
+    }
+}
+
+fn planned_bytes(plan: &FramePlan) -> u64 {
+    let buffers = plan.buffers.iter().map(|buffer| buffer.bytes);
+    buffers.chain(plan.textures.iter().map(|texture| texture.bytes)).sum()
+}
