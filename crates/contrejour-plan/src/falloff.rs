@@ -1,6 +1,6 @@
 //! How light grows weaker with distance and towards the rim of a cone.
 //!
-//! Plain functions for renderers; `shaders/shared/falloff.wgsl` has the same in WGSL.
+//! Plain functions for renderers.
 
 /// Distances below this count as this much, so that the light at a point light's centre is finite. Unit: world (metres).
 /// Karis (2013) adds 1 to the squared distance; a centimetre stays clear of what is lit from a hand's breadth away.
