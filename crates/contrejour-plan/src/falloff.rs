@@ -2,19 +2,20 @@
 //!
 //! Plain functions for renderers.
 
-/// Distances below this count as this much, so that the light at a point light's centre is finite. Unit: world (metres).
-/// Karis (2013) adds 1 to the squared distance; a centimetre stays clear of what is lit from a hand's breadth away.
+/// Its square is added to squared distances, so that the light at a point light's centre is finite. Unit: world (metres).
+/// Where Karis (2013) adds 1, a centimetre takes no more than a hundredth of the light from a hand's breadth on.
 pub const MIN_FALLOFF_DISTANCE: f64 = 0.01;
 
 /// What a unit of intensity at a distance sheds on a surface that faces it: the inverse square of the distance, brought
 /// smoothly to nothing at the range.
 ///
 /// Unit: 1 over world units squared. Times the light's intensity (candela, which are lumens per steradian) it is an
-/// illuminance (lux, where the world is in metres). `distance` is in world units, 0 and up. `range` is in world units, more than 0; infinite leaves
-/// the inverse square as it is. At half the range 0.88 of the inverse square is left, at 0.8 of it 0.35.
+/// illuminance (lux, where the world is in metres). `distance` is in world units, 0 and up. `range` is in world units,
+/// more than 0; infinite leaves the inverse square as it is. At half the range 0.88 of the inverse square is left, at
+/// 0.8 of it 0.35.
 ///
-/// saturate(1 - (d / r)^4)^2 / (d^2 + epsilon) (Karis 2013, "Real Shading in Unreal Engine 4", on lighting; epsilon is 1
-/// there and [`MIN_FALLOFF_DISTANCE`] squared here).
+/// saturate(1 - (d / r)^4)^2 / (d^2 + epsilon) (Karis 2013, "Real Shading in Unreal Engine 4", on lighting; epsilon is
+/// 1 there and [`MIN_FALLOFF_DISTANCE`] squared here).
 pub fn distance_falloff(distance: f64, range: f64) -> f64 {
     let share = distance / range;
     let window = (1.0 - share * share * share * share).clamp(0.0, 1.0);
@@ -31,8 +32,8 @@ pub struct ConeFalloff {
 }
 
 impl ConeFalloff {
-    /// From half opening angles in radians. Range: 0 to pi, `inner` less than `outer`. An `inner` that is not gives a rim as
-    /// sharp as a thousandth of a cosine, as `KHR_lights_punctual` does it.
+    /// From half opening angles in radians. Range: 0 to pi, `inner` less than `outer`. An `inner` that is not gives a
+    /// rim as sharp as a thousandth of a cosine, as `KHR_lights_punctual` does it.
     pub fn from_angles(inner: f64, outer: f64) -> Self {
         // The extension's least difference; less than none would turn the cone inside out.
         const SHARPEST: f64 = 0.001;

@@ -8,8 +8,8 @@ use glam::DQuat;
 /// The light at one of `frames` even steps of a full turn about the vertical axis through what it aims at.
 ///
 /// A spot's position turns about its target, a point light's, which aims at nothing, about the origin; the direction
-/// towards a directional light turns and its centre stays. The turn is counter-clockwise as seen from above. Frame 0, and every frame of an
-/// orbit of no frames, is the light itself; frames past the last go on turning.
+/// towards a directional light turns and its centre stays. The turn is counter-clockwise as seen from above. Frame 0,
+/// and every frame of an orbit of no frames, is the light itself; frames past the last go on turning.
 pub fn orbit(light: &Light, frame: u32, frames: u32) -> Light {
     let step = frame.checked_rem(frames).unwrap_or(0);
     if step == 0 {

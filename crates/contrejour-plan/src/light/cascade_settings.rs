@@ -1,6 +1,7 @@
 //! What can be set about cascades.
 
-/// What can be set about the cascades of a directional light: maps that follow the eye, each of a slice of what it sees.
+/// What can be set about the cascades of a directional light: maps that follow the eye, each of a slice of what it
+/// sees.
 ///
 /// Nothing here has a unit, so the same numbers fit scenes of any size. How far shadows reach is the eye's farthest
 /// depth.
@@ -15,8 +16,8 @@ pub struct CascadeSettings {
     /// The last part of each slice, in which its cascade fades into the next, and the last one out. Range: 0 to 0.5.
     /// Default: 0.1. 0 shows a line where texels change size.
     pub border_share: f64,
-    /// How far in front of a slice, towards the light, casters keep their place in the depth range, as a multiple of the
-    /// eye's farthest depth. Range: 0 to 1000. Default: 1. What is still nearer to the light casts too, see
+    /// How far in front of a slice, towards the light, casters keep their place in the depth range, as a multiple of
+    /// the eye's farthest depth. Range: 0 to 1000. Default: 1. What is still nearer to the light casts too, see
     /// [`CastersInFront::Pancaked`](crate::CastersInFront::Pancaked); more makes the depth range less exact.
     pub caster_margin: f64,
 }

@@ -1,11 +1,11 @@
 //! The views of a cascaded light.
 
-use super::Eye;
 use super::cascade_slices::{Sphere, split_depths};
 use super::eye::EyeError;
 use super::guard::guard_of_size;
 use super::snapped_view::SnappedMap;
 use super::view::View;
+use super::{Eye, LightOutline};
 use crate::light::not_negative;
 use crate::{Light, LightError, LightKind, SettingsError, ShadowSettings};
 
@@ -21,8 +21,8 @@ pub struct Cascades {
 
 /// A map and the slice of the eye's view that is looked up in it.
 ///
-/// A receiver belongs to the first cascade whose `end_depth` is not less than the receiver's depth in the eye's view; see
-/// [`Cascades::at`].
+/// A receiver belongs to the first cascade whose `end_depth` is not less than the receiver's depth in the eye's view;
+/// see [`Cascades::at`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cascade {
     /// What the light sees of the slice and of its border with the slice before.
@@ -76,8 +76,8 @@ pub enum CascadeError {
 /// sphere is a guard band as wide as soft edges and filters need, half of the map's half side at most.
 ///
 /// The view's depth is 0 where the square's cube begins. Casters nearer to the light have negative depth; see
-/// [`CastersInFront::Pancaked`](crate::CastersInFront::Pancaked). Matrices hold 32 bits in the end: far from the origin,
-/// bring the world near the eye first.
+/// [`CastersInFront::Pancaked`](crate::CastersInFront::Pancaked). Matrices hold 32 bits in the end: far from the
+/// origin, bring the world near the eye first.
 ///
 /// ```
 /// use contrejour_plan::{CascadeSettings, Eye, Light, LightKind, ShadowSettings, cascade_views};
@@ -118,9 +118,10 @@ pub fn cascade_views(light: &Light, eye: &Eye, settings: &ShadowSettings) -> Res
         let (begin_depth, end_depth) = (pair[0], pair[1]);
         let blend_depth = end_depth - cascades.border_share * (end_depth - begin_depth);
         let sphere = Sphere::around_slice(eye, [seen_from, end_depth]);
-        // A penumbra from the front of the margin to the end of the cube, whose half side is the sphere's radius or more.
+        // A penumbra from the front of the margin to the end of the cube, whose half side is the sphere's radius or
+        // more.
         let penumbra_ndc = angular_radius.tan() * (2.0 + caster_margin / sphere.radius);
-        let guard_ndc = guard_of_size(penumbra_ndc, settings);
+        let guard_ndc = guard_of_size(penumbra_ndc, LightOutline::Disk, settings);
         let map = SnappedMap { towards_light, angular_radius, map_size, guard_ndc, caster_margin };
         seen_from = blend_depth;
         let view = map.view(&sphere);

@@ -26,8 +26,8 @@ impl CubeFace {
     pub const ALL: [Self; 6] =
         [Self::PositiveX, Self::NegativeX, Self::PositiveY, Self::NegativeY, Self::PositiveZ, Self::NegativeZ];
 
-    /// The face that a direction goes through: that of its largest component. Where components are equally large, x goes
-    /// before y before z; where all are zero, the direction goes through the first face.
+    /// The face that a direction goes through: that of its largest component. Where components are equally large, x
+    /// goes before y before z; where all are zero, the direction goes through the first face.
     pub fn of(direction: DVec3) -> Self {
         let size = direction.abs();
         let (axis, component) = if size.x >= size.y && size.x >= size.z {

@@ -2,8 +2,8 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::CubeFace;
 use super::view::{CastersInFront, Projection, View, look_along};
+use super::{CubeFace, LightOutline};
 use crate::LightError;
 use crate::light::is_normal;
 
@@ -32,6 +32,7 @@ pub(super) fn cube_views(
         far_depth: far,
         half_side: 1.0 / square,
         light_size: radius * square,
+        light_outline: LightOutline::Sphere,
         casters_in_front: CastersInFront::Clipped,
     };
     Ok(CubeFace::ALL.map(|face| view_along(face.axis())).to_vec())

@@ -17,8 +17,8 @@ pub struct Eye {
     pub aspect: f64,
     /// Nearest depth that is seen, world units. Range: more than 0.
     pub near: f64,
-    /// Farthest depth that is shadowed, world units: the camera's far plane, or less. Range: more than `near`. Texels are
-    /// spread over all of it: half of it has them half as large.
+    /// Farthest depth that is shadowed, world units: the camera's far plane, or less. Range: more than `near`. Texels
+    /// are spread over all of it: half of it has them half as large.
     pub far: f64,
 }
 

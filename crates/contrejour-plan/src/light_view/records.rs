@@ -7,7 +7,7 @@ use super::{CastersInFront, Projection, View};
 use crate::{DepthPrecision, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, VarianceSoftness};
 
 /// The smallest smoothie width: less, and the rim falls between texels.
-const MIN_WIDTH_TEXELS: f64 = 1.5;
+pub(super) const MIN_WIDTH_TEXELS: f64 = 1.5;
 
 /// Texels by which a frustum is widened for filters and for rounding.
 const GUARD_TEXELS: f64 = 2.0;
@@ -141,10 +141,10 @@ impl View {
     pub fn widest_smoothie_ndc(&self, smoothies: &SmoothieSettings, map_size: u32) -> f64 {
         let width = self.width_terms(smoothies, map_size);
         if self.casters_in_front == CastersInFront::Pancaked && width.per_q > 0.0 {
-            return width.max;
+            return self.widest_ndc(width.max);
         }
         let unclamped = width.fixed + width.per_q * (self.q_max() - self.q_of_depth(self.near_depth));
-        unclamped.clamp(width.min, width.max)
+        self.widest_ndc(unclamped.clamp(width.min, width.max))
     }
 
     fn width_terms(&self, smoothies: &SmoothieSettings, map_size: u32) -> WidthTerms {

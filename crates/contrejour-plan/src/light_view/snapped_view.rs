@@ -2,6 +2,7 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
+use super::LightOutline;
 use super::cascade_slices::Sphere;
 use super::view::{CastersInFront, Projection, View, look_along, unit};
 
@@ -53,6 +54,7 @@ impl SnappedMap {
             far_depth: 2.0 * half_side,
             half_side,
             light_size: self.angular_radius.tan() / half_side,
+            light_outline: LightOutline::Disk,
             casters_in_front: CastersInFront::Pancaked,
         }
     }

@@ -4,6 +4,7 @@ use glam::dcamera::rh::proj::directx::{orthographic, perspective};
 use glam::dcamera::rh::view::look_to_mat4;
 use glam::{DMat4, DVec3, DVec4};
 
+use super::LightOutline;
 use super::cube_views::cube_views;
 use super::power_of_two::exponent_of;
 use crate::{Light, LightError, LightKind};
@@ -28,8 +29,8 @@ pub enum CastersInFront {
     /// They cast. Only cascades, which are orthographic, do so.
     ///
     /// Where a clip z below 0 would be clipped, it becomes 0, vertex by vertex or, where the device can do so, pixel by
-    /// pixel: an image that is pressed flat. Linear depth stays what it is, less than the nearest depth and maybe negative:
-    /// shadow map and quads are made from it, and neither is clipped at or moved to the nearest depth.
+    /// pixel: an image that is pressed flat. Linear depth stays what it is, less than the nearest depth and maybe
+    /// negative: shadow map and quads are made from it, and neither is clipped at or moved to the nearest depth.
     Pancaked,
 }
 
@@ -56,6 +57,8 @@ pub struct View {
     /// Size of the light on the image plane, NDC per unit of q: the half penumbra of a blocker at depth b on a
     /// receiver at depth r is `light_size * (q(r) - q(b))`.
     pub light_size: f64,
+    /// What the light looks like: whether soft edges are equally wide all over the map.
+    pub light_outline: LightOutline,
     /// What becomes of casters that are nearer than `near_depth`.
     pub casters_in_front: CastersInFront,
 }
@@ -71,10 +74,10 @@ pub fn views(light: &Light) -> Result<Vec<View>, LightError> {
     views_with_guard(light, 0.0)
 }
 
-/// The views of a light, where a point light's are widened so that a band of `guard_ndc` along each side of the map shows
-/// what its neighbours show. Unit: NDC of the widened view. Range: 0 and up, less than 1;
-/// [`guard_ndc`](crate::guard_ndc()) is what shadow settings ask for. Lights of a single view have no neighbours and stay
-/// as they are.
+/// The views of a light, where a point light's are widened so that a band of `guard_ndc` along each side of the map
+/// shows what its neighbours show. Unit: NDC of the widened view. Range: 0 and up, less than 1;
+/// [`guard_ndc`](crate::guard_ndc()) is what shadow settings ask for. Lights of a single view have no neighbours and
+/// stay as they are.
 ///
 /// The square of a face is then `1 - guard_ndc` of its map, and its nearest depth as much of the light's `near`.
 ///
@@ -100,6 +103,7 @@ pub fn views_with_guard(light: &Light, guard_ndc: f64) -> Result<Vec<View>, Ligh
                 far_depth: far,
                 half_side,
                 light_size: radius / half_side,
+                light_outline: LightOutline::Disk,
                 casters_in_front: CastersInFront::Clipped,
             }
         }
@@ -117,6 +121,7 @@ pub fn views_with_guard(light: &Light, guard_ndc: f64) -> Result<Vec<View>, Ligh
                 far_depth,
                 half_side: half_extent,
                 light_size: angular_radius.tan() / half_extent,
+                light_outline: LightOutline::Disk,
                 casters_in_front: CastersInFront::Clipped,
             }
         }
