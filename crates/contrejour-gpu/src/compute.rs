@@ -3,6 +3,7 @@
 use contrejour_layout::{BLOCK_SIZE, DispatchArgs, MAX_GROUPS_X};
 use contrejour_plan::{PagePlan, Stage, ViewCounts};
 
+use crate::frame::Recorded;
 use crate::resources::{Bindings, Buffers, binding_type};
 use crate::stages::{ComputeStage, Dispatch};
 
@@ -64,19 +65,23 @@ impl StagePipeline {
         bindings.bind(device, self.stage().name(), &self.layout, (self.stage().buffers(), page), None)
     }
 
-    /// Records the stage over all pages.
+    /// Records the stage over all pages; counts its dispatches.
     pub fn encode(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
         bind_groups: &[wgpu::BindGroup],
         buffers: &Buffers,
         pages: &[PagePlan],
+        recorded: &mut Recorded,
     ) {
         pass.set_pipeline(&self.pipeline);
         for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
+            if self.description.dispatch == Dispatch::Casters && index > 0 {
+                continue;
+            }
+            recorded.dispatches += 1;
             pass.set_bind_group(0, bind_group, &[]);
             match self.description.dispatch {
-                Dispatch::Casters if index > 0 => {}
                 Dispatch::Casters => dispatch(pass, page.counts.casters.div_ceil(BLOCK_SIZE)),
                 Dispatch::Blocks => {
                     let ViewCounts { face_blocks, edge_blocks, .. } = page.counts;

@@ -32,6 +32,13 @@ struct ViewGroups {
     passes: Vec<Vec<wgpu::BindGroup>>,
 }
 
+/// How many commands were recorded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Recorded {
+    pub dispatches: u32,
+    pub draws: u32,
+}
+
 /// What [`Frame::follow`] made anew.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Made {
@@ -80,15 +87,16 @@ impl Frame {
         records: &[LightView],
         mut counted: Option<Copying<'_>>,
         timer: &mut T,
-    ) {
+    ) -> Recorded {
+        let mut recorded = Recorded::default();
         for ((groups, record), view) in self.views.iter().zip(records).zip(0..) {
             for counters in shared.all(BufferKind::Counters) {
                 encoder.clear_buffer(counters, 0, Some(size_of::<Counters>() as u64));
             }
-            self.encode_stages(encoder, plan, shared, groups, timer);
+            self.encode_stages(encoder, plan, shared, groups, &mut recorded, timer);
             let drawn = DrawnView { view, record, pages: &plan.pages };
             for (pipeline, bind_groups) in self.passes.iter().zip(&groups.passes) {
-                pipeline.encode(encoder, bind_groups, (shared, &self.textures), &drawn, timer);
+                pipeline.encode(encoder, bind_groups, (shared, &self.textures), &drawn, &mut recorded, timer);
             }
             if let Some(counted) = &mut counted {
                 counted.copy(encoder, shared.all(BufferKind::Counters));
@@ -97,6 +105,7 @@ impl Frame {
         if let Some(counted) = counted {
             counted.finish(encoder);
         }
+        recorded
     }
 
     fn encode_stages<T: PassTimer>(
@@ -105,6 +114,7 @@ impl Frame {
         plan: &FramePlan,
         shared: &Buffers,
         groups: &ViewGroups,
+        recorded: &mut Recorded,
         timer: &mut T,
     ) {
         let stages = || self.stages.iter().zip(&groups.stages);
@@ -112,7 +122,7 @@ impl Frame {
             if !self.stages.is_empty() {
                 let mut pass = encoder
                     .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("stages"), timestamp_writes: None });
-                stages().for_each(|(stage, groups)| stage.encode(&mut pass, groups, shared, &plan.pages));
+                stages().for_each(|(stage, groups)| stage.encode(&mut pass, groups, shared, &plan.pages, recorded));
             }
             return;
         }
@@ -124,7 +134,7 @@ impl Frame {
                     label: Some(name),
                     timestamp_writes: T::compute_writes(&query),
                 });
-                stage.encode(&mut pass, groups, shared, &plan.pages);
+                stage.encode(&mut pass, groups, shared, &plan.pages, recorded);
             }
             timer.end(query, encoder);
         }

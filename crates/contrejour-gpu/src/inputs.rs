@@ -61,6 +61,10 @@ pub struct FrameStats {
     pub lights_redone: u32,
     /// Lights whose maps stand, since neither they nor anything within their reach changed.
     pub lights_kept: u32,
+    /// Dispatches that the last [`encode`](crate::Shadows::encode) recorded.
+    pub dispatches_recorded: u32,
+    /// Draws that it recorded.
+    pub draws_recorded: u32,
     /// Counters of the latest frames that have arrived, of all lights together.
     pub counters: Option<Counters>,
 }

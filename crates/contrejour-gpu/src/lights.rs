@@ -7,7 +7,7 @@ use contrejour_plan::{
 };
 
 use crate::error::ShadowLightError;
-use crate::frame::{Frame, Made};
+use crate::frame::{Frame, Made, Recorded};
 use crate::inputs::ShadowOptions;
 use crate::pipelines::Pipelines;
 use crate::readback::CounterReadback;
@@ -93,6 +93,7 @@ impl LightState {
         let needs_plan = shape(&self.views) != shape(&views) || self.choice != choice;
         (self.views, self.choice) = (views, choice);
         self.has_new_records = true;
+        self.is_due = true;
         Ok(needs_plan)
     }
 
@@ -164,21 +165,17 @@ impl LightState {
         let Some(plan) = &mut self.plan else { return 0 };
         let mut bytes = 0;
         if std::mem::take(&mut self.has_new_records) {
-            let records = Records::new(&self.views, plan);
-            if records != self.records || self.is_due {
-                let mut write = |(kind, page), data: &[u8]| {
-                    if let Some(buffer) = self.frame.buffers.find(kind, page) {
-                        queue.write_buffer(buffer, 0, data);
-                        bytes += data.len() as u64;
-                    }
-                };
-                for (views, page) in records.light_views.chunks(self.views.len()).zip(0..) {
-                    write((BufferKind::LightView, page), bytemuck::cast_slice(views));
+            self.records = Records::new(&self.views, plan);
+            let mut write = |(kind, page), data: &[u8]| {
+                if let Some(buffer) = self.frame.buffers.find(kind, page) {
+                    queue.write_buffer(buffer, 0, data);
+                    bytes += data.len() as u64;
                 }
-                write((BufferKind::ReceiverView, 0), bytemuck::cast_slice(&records.receiver_views));
-                self.is_due = true;
-                self.records = records;
+            };
+            for (views, page) in self.records.light_views.chunks(self.views.len()).zip(0..) {
+                write((BufferKind::LightView, page), bytemuck::cast_slice(views));
             }
+            write((BufferKind::ReceiverView, 0), bytemuck::cast_slice(&self.records.receiver_views));
         }
         // Told frame by frame.
         let kept = LeftOut { what: Omitted::Redrawing, reason: Reason::NothingChanged };
@@ -194,13 +191,18 @@ impl LightState {
     }
 
     /// Records what fills its maps.
-    pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, shared: &Buffers, timer: &mut T) {
-        let Some(plan) = &self.plan else { return };
+    pub fn encode<T: PassTimer>(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &Buffers,
+        timer: &mut T,
+    ) -> Recorded {
+        let Some(plan) = &self.plan else { return Recorded::default() };
         let of_page = plan.pages.iter().map(|page| page.capacity());
         let capacities = std::iter::repeat_n(of_page, self.views.len()).flatten().collect();
         let counted = if plan.stages.is_empty() { None } else { self.readback.begin(capacities) };
-        self.frame.encode(encoder, plan, shared, &self.records.light_views, counted, timer);
         self.is_due = false;
+        self.frame.encode(encoder, plan, shared, &self.records.light_views, counted, timer)
     }
 
     /// Takes the counters that have arrived. Returns the overflows, and the room that was missing.

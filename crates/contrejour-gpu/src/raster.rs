@@ -3,6 +3,7 @@
 use contrejour_layout::{DrawArgs, LightView};
 use contrejour_plan::{BufferKind, EntryPoints, FramePlan, PagePlan, Pass, PipelinePlan, TextureKind};
 
+use crate::frame::Recorded;
 use crate::passes::{ClearColor, DrawCount, Levels, MapPass};
 use crate::resources::{Bindings, Buffers, Textures, UNFILTERED_FLOAT, binding_type, format};
 use crate::timer::PassTimer;
@@ -146,20 +147,21 @@ impl MapPipeline {
         reads.iter().flat_map(|read| pages.clone().map(|page| bind(page, *read))).collect()
     }
 
-    /// Records the pass over all pages, once for each level that it fills.
+    /// Records the pass over all pages, once for each level that it fills; counts its draws.
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         bind_groups: &[wgpu::BindGroup],
         (buffers, textures): (&Buffers, &Textures),
         drawn: &DrawnView<'_>,
+        recorded: &mut Recorded,
         timer: &mut T,
     ) {
         let first_level = if self.description.levels == Levels::First { 0 } else { 1 };
         for (bind_groups, level) in bind_groups.chunks(self.drawn_pages(drawn.pages.len())).zip(first_level..) {
             let query = timer.begin(self.description.pass.name(), encoder);
             let writes = T::render_writes(&query);
-            self.encode_level(encoder, bind_groups, level, (buffers, textures), drawn, writes);
+            recorded.draws += self.encode_level(encoder, bind_groups, level, (buffers, textures), drawn, writes);
             timer.end(query, encoder);
         }
     }
@@ -172,7 +174,8 @@ impl MapPipeline {
         (buffers, textures): (&Buffers, &Textures),
         drawn: &DrawnView<'_>,
         timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) {
+    ) -> u32 {
+        let mut draws = 0;
         let color = self.description.color.map(|target| {
             Some(wgpu::RenderPassColorAttachment {
                 view: &textures.levels(target.texture, drawn.view)[level],
@@ -204,14 +207,16 @@ impl MapPipeline {
                 match *count {
                     DrawCount::FullScreen => pass.draw(0..3, 0..1),
                     // Without a block nothing wrote the arguments.
-                    DrawCount::Indirect(_) if page.counts.face_blocks + page.counts.edge_blocks == 0 => {}
+                    DrawCount::Indirect(_) if page.counts.face_blocks + page.counts.edge_blocks == 0 => continue,
                     DrawCount::Indirect(entry) => {
                         let offset = u64::from(entry) * size_of::<DrawArgs>() as u64;
                         pass.draw_indirect(buffers.get(BufferKind::DrawArgs, index), offset);
                     }
                 }
+                draws += 1;
             }
         }
+        draws
     }
 }
 

@@ -169,13 +169,16 @@ impl Shadows {
     ///
     /// The encoder's commands must be submitted, or dropped together with this object.
     pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
+        (self.stats.dispatches_recorded, self.stats.draws_recorded) = (0, 0);
         let is_due = self.lights.iter().any(|(_, light)| light.is_due());
         if self.is_stale || !is_due {
             return;
         }
         self.buffers.encode_copies(encoder, &self.casters.live_copies(&self.meshes));
         for (_, light) in self.lights.iter_mut().filter(|(_, light)| light.is_due()) {
-            light.encode(encoder, self.buffers.shared(), timer);
+            let recorded = light.encode(encoder, self.buffers.shared(), timer);
+            self.stats.dispatches_recorded += recorded.dispatches;
+            self.stats.draws_recorded += recorded.draws;
         }
     }
 

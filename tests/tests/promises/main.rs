@@ -6,6 +6,7 @@ mod exact;
 mod facing;
 mod judged;
 mod left_out;
+mod many_lights;
 mod no_gaps;
 mod nothing_lost;
 mod nothing_per_edge;
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
         nothing_lost::trials(),
         nothing_per_edge::trials(),
         own_positions::trials(),
+        many_lights::trials(),
         device_trouble::trials(),
         pages::trials(),
         ten_million::trials(),

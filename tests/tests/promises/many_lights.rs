@@ -1,0 +1,291 @@
+//! Many lights in one object: each leaves what it leaves alone, and what saw no change is kept.
+
+use std::sync::Arc;
+
+use contrejour_gpu::{CasterHandle, CasterInput, LightHandle, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_plan::{Light, LightKind, Omitted, Reason, ShadowSettings, TextureKind};
+use contrejour_tests::compare::compare_exact;
+use contrejour_tests::gpu::Gpu;
+use contrejour_tests::harness::{Outcome, gpu_trial};
+use contrejour_tests::lights::point;
+use contrejour_tests::meshes::shapes;
+use contrejour_tests::random::Random;
+use contrejour_tests::texture::read_layers;
+use glam::{DMat4, DQuat, DVec3};
+use libtest_mimic::Trial;
+
+pub fn trials() -> Vec<Trial> {
+    vec![
+        gpu_trial("many_lights::each_leaves_what_it_leaves_alone", each_leaves_what_it_leaves_alone),
+        gpu_trial("many_lights::what_saw_no_change_is_kept", what_saw_no_change_is_kept),
+        gpu_trial("many_lights::what_is_kept_is_what_would_be_drawn", what_is_kept_is_what_would_be_drawn),
+        gpu_trial("many_lights::thousands_come_and_go", thousands_come_and_go),
+        gpu_trial("many_lights::commands_do_not_follow_the_casters", commands_do_not_follow_the_casters),
+    ]
+}
+
+/// A scene whose casters move, with one object for all of it.
+struct Crowd<'a> {
+    gpu: &'a Gpu,
+    shadows: Shadows,
+    meshes: Vec<MeshHandle>,
+    casters: Vec<CasterHandle>,
+}
+
+fn text(error: impl ToString) -> String {
+    error.to_string()
+}
+
+impl<'a> Crowd<'a> {
+    /// As many casters of all shapes, at places that follow from the seed.
+    fn new(gpu: &'a Gpu, count: usize, seed: u64) -> Result<Self, String> {
+        let mut shadows = Shadows::new(&gpu.device).map_err(text)?;
+        let mut meshes = Vec::new();
+        for shape in shapes() {
+            meshes.push(shadows.add_mesh(Arc::clone(&shape.parts[0].topology)).map_err(text)?);
+        }
+        let mut crowd = Self { gpu, shadows, meshes, casters: Vec::new() };
+        let mut random = Random::new(seed);
+        for index in 0..count {
+            let caster = crowd.add_caster(index, place(&mut random))?;
+            crowd.casters.push(caster);
+        }
+        Ok(crowd)
+    }
+
+    fn add_caster(&mut self, mesh: usize, world_from_object: DMat4) -> Result<CasterHandle, String> {
+        let mesh = self.meshes[mesh % self.meshes.len()];
+        let input = CasterInput { mesh, world_from_object, positions: Positions::OfMesh };
+        self.shadows.add_caster(&input).map_err(text)
+    }
+
+    fn add_light(&mut self, &(light, technique): &(Light, &str)) -> Result<LightHandle, String> {
+        let mut settings = ShadowSettings { map_size: 128, ..Default::default() };
+        // The smoothies of the preset are narrow: wide ones reach all around a lamp.
+        if technique != settings.technique.to_string() {
+            settings.technique = technique.parse().map_err(text)?;
+        }
+        let options = ShadowOptions { settings, ..Default::default() };
+        self.shadows.add_light(&self.gpu.device, &light, &options).map_err(text)
+    }
+
+    /// Draws until all lists had room. Returns how many lights the first frame made.
+    fn draw(&mut self) -> Result<u32, String> {
+        let _waiting = self.gpu.waiting();
+        let Gpu { device, queue, .. } = self.gpu;
+        let mut redone = None;
+        for _ in 0..5 {
+            self.shadows.prepare(device, queue).map_err(text)?;
+            redone.get_or_insert(self.shadows.stats().lights_redone);
+            let mut encoder = device.create_command_encoder(&Default::default());
+            self.shadows.encode(&mut encoder, &mut Untimed);
+            queue.submit([encoder.finish()]);
+            self.shadows.wait_for_counters(device).map_err(text)?;
+            if self.shadows.is_complete() {
+                return redone.ok_or_else(|| "no frame was drawn".into());
+            }
+        }
+        Err("lists never had room".into())
+    }
+
+    /// All texels of all maps that receivers look up.
+    fn maps(&self, light: LightHandle) -> Result<Vec<u8>, String> {
+        let plan = self.shadows.plan(light).ok_or("the light was prepared")?;
+        let visibility = plan.visibility.ok_or("the light has maps")?;
+        let maps = self.shadows.maps(light);
+        let mut bytes = Vec::new();
+        for kind in visibility.textures() {
+            let map = match kind {
+                TextureKind::ShadowDepth => maps.shadow_depth,
+                TextureKind::ShadowHardwareDepth => maps.shadow_hardware_depth,
+                TextureKind::Moments => maps.moments,
+                TextureKind::SmoothieDepth => maps.smoothie_depth,
+                TextureKind::SmoothieAlpha => maps.smoothie_alpha,
+                TextureKind::SmoothieBuffer => maps.smoothie_buffer,
+            };
+            bytes.extend(read_layers(self.gpu, map.ok_or("a listed map is there")?));
+        }
+        if bytes.is_empty() { Err("the light has no texel".into()) } else { Ok(bytes) }
+    }
+}
+
+/// Somewhere in a room of 8 units, turned, stretched, every other one mirrored.
+fn place(random: &mut Random) -> DMat4 {
+    let mut vector = || DVec3::new(random.signed(), random.signed(), random.signed());
+    let (middle, stretch, axis) = (4.0 * vector(), vector(), vector().normalize_or(DVec3::X));
+    let sign = if stretch.x > 0.0 { 1.0 } else { -1.0 };
+    let scale = DVec3::splat(0.6) * (1.0 + 0.4 * stretch) * DVec3::new(sign, 1.0, 1.0);
+    DMat4::from_scale_rotation_translation(scale, DQuat::from_axis_angle(axis, 3.0 * stretch.y), middle)
+}
+
+fn lamp(position: DVec3) -> Light {
+    Light { kind: LightKind::Point { position, radius: 0.1, near: 0.2, far: 12.0 }, color: [1.0; 3] }
+}
+
+fn sun(towards_light: DVec3) -> Light {
+    let kind = LightKind::Directional {
+        towards_light,
+        center: DVec3::ZERO,
+        half_extent: 6.0,
+        half_depth: 8.0,
+        angular_radius: 0.02,
+    };
+    Light { kind, color: [1.0; 3] }
+}
+
+/// Every kind of light, with techniques of all kinds.
+fn lights() -> Vec<(Light, &'static str)> {
+    vec![
+        (point(DVec3::new(5.0, 6.0, 1.0), DVec3::ZERO, 4.0), "smoothies"),
+        (sun(DVec3::new(0.3, 1.0, 0.2)), "shadow-map"),
+        (lamp(DVec3::new(0.2, 0.5, -0.3)), "smoothies"),
+        (point(DVec3::new(-6.0, 3.0, 2.0), DVec3::Y, 4.0), "evsm"),
+        (lamp(DVec3::new(-2.0, 1.0, 2.0)), "pcss"),
+        (sun(DVec3::new(-1.0, 0.4, 0.1)), "smoothies"),
+        (lamp(DVec3::new(3.0, -1.0, 0.0)), "vsm-pcss"),
+    ]
+}
+
+fn each_leaves_what_it_leaves_alone(gpu: &Gpu) -> Outcome {
+    let mut all = Crowd::new(gpu, 20, 1)?;
+    let handles = lights().iter().map(|light| all.add_light(light)).collect::<Result<Vec<_>, _>>()?;
+    all.draw()?;
+    for (light, handle) in lights().iter().zip(handles) {
+        let mut alone = Crowd::new(gpu, 20, 1)?;
+        let only = alone.add_light(light)?;
+        alone.draw()?;
+        let (expected, found) = (alone.maps(only)?, all.maps(handle)?);
+        compare_exact(&format!("maps of {light:?}"), &expected, &found)?;
+    }
+    Ok(())
+}
+
+fn what_saw_no_change_is_kept(gpu: &Gpu) -> Outcome {
+    let mut crowd = Crowd::new(gpu, 6, 2)?;
+    // One looks at the room, one at what lies far beside it.
+    let beside = DVec3::new(100.0, 0.0, 0.0);
+    let near = crowd.add_light(&(point(DVec3::new(5.0, 6.0, 1.0), DVec3::ZERO, 4.0), "smoothies"))?;
+    let far = crowd.add_light(&(lamp(beside), "smoothies"))?;
+    let stranger = crowd.add_caster(1, DMat4::from_translation(beside + DVec3::X))?;
+    let kept = |crowd: &Crowd<'_>, light| {
+        let plan = crowd.shadows.plan(light);
+        plan.is_some_and(|plan| plan.reason(&Omitted::Redrawing) == Some(Reason::NothingChanged))
+    };
+    let check = |crowd: &mut Crowd<'_>, what: &str, expected: [bool; 2]| {
+        crowd.draw()?;
+        // The frame after it finds all maps as they are.
+        let redone = [near, far].map(|light| !kept(crowd, light));
+        if redone == expected { Ok(()) } else { Err(format!("{what}: {redone:?} are drawn, and not {expected:?}")) }
+    };
+    crowd.draw()?;
+    check(&mut crowd, "nothing moved", [false, false])?;
+    let stats = crowd.shadows.stats();
+    if (stats.dispatches_recorded, stats.draws_recorded, stats.upload_bytes) != (0, 0, 0) {
+        return Err(format!("something is done where nothing moved: {stats:?}"));
+    }
+
+    let first = crowd.casters[0];
+    crowd.shadows.place_caster(first, &DMat4::from_translation(DVec3::Y)).map_err(text)?;
+    check(&mut crowd, "a caster in the room moved", [true, false])?;
+    crowd.shadows.place_caster(first, &DMat4::from_translation(DVec3::Y)).map_err(text)?;
+    check(&mut crowd, "it was put where it was", [false, false])?;
+    crowd.shadows.place_caster(first, &DMat4::from_translation(beside - DVec3::X)).map_err(text)?;
+    check(&mut crowd, "it went from one to the other", [true, true])?;
+    crowd.shadows.remove_caster(stranger).map_err(text)?;
+    check(&mut crowd, "a caster beside the room left", [false, true])?;
+    crowd.shadows.set_light(near, &point(DVec3::new(5.0, 6.0, 1.5), DVec3::ZERO, 4.0)).map_err(text)?;
+    check(&mut crowd, "a light moved", [true, false])?;
+    crowd.add_light(&(sun(DVec3::Y), "pcf"))?;
+    check(&mut crowd, "a light came", [false, false])
+}
+
+/// Casters walk about; now and then a light does. After each step all maps are those of a scene drawn from scratch, and
+/// some were kept.
+fn what_is_kept_is_what_would_be_drawn(gpu: &Gpu) -> Outcome {
+    let mut random = Random::new(3);
+    let mut lights = lights();
+    lights.push((lamp(DVec3::new(60.0, 0.0, 0.0)), "smoothies"));
+    lights.push((point(DVec3::new(60.0, 3.0, 0.0), DVec3::new(60.0, 0.0, 0.0), 4.0), "pcss"));
+    let mut crowd = Crowd::new(gpu, 8, 3)?;
+    let handles = lights.iter().map(|light| crowd.add_light(light)).collect::<Result<Vec<_>, _>>()?;
+    let mut places: Vec<_> = {
+        let mut random = Random::new(3);
+        (0..8).map(|_| place(&mut random)).collect()
+    };
+    let (mut kept, mut changed) = (0, 0);
+    let mut before: Vec<Vec<u8>> = Vec::new();
+    for step in 0..8 {
+        let caster = random.below(8);
+        // Some go to the lights beside the room, and stay there.
+        let beside = DVec3::X * if caster < 4 { 60.0 } else { 0.0 };
+        places[caster] = DMat4::from_translation(beside) * place(&mut random);
+        crowd.shadows.place_caster(crowd.casters[caster], &places[caster]).map_err(text)?;
+        kept += lights.len() as u32 - crowd.draw()?;
+
+        let mut scratch = Crowd::new(gpu, 8, 3)?;
+        for (caster, place) in scratch.casters.iter().zip(&places) {
+            scratch.shadows.place_caster(*caster, place).map_err(text)?;
+        }
+        let anew = lights.iter().map(|light| scratch.add_light(light)).collect::<Result<Vec<_>, _>>()?;
+        scratch.draw()?;
+        let mut found = Vec::new();
+        for ((light, handle), anew) in lights.iter().zip(&handles).zip(anew) {
+            found.push(crowd.maps(*handle)?);
+            let what = format!("step {step}, maps of {light:?}");
+            compare_exact(&what, &scratch.maps(anew)?, &found[found.len() - 1])?;
+        }
+        changed += found.iter().zip(&before).filter(|(found, before)| found != before).count();
+        before = found;
+    }
+    // Else a map that is never drawn again would pass.
+    if kept >= 6 && changed >= 12 { Ok(()) } else { Err(format!("{kept} maps were kept, {changed} changed")) }
+}
+
+fn thousands_come_and_go(gpu: &Gpu) -> Outcome {
+    let mut random = Random::new(4);
+    let mut crowd = Crowd::new(gpu, 4, 4)?;
+    let stays = crowd.add_light(&lights()[0])?;
+    crowd.draw()?;
+    let before = crowd.maps(stays)?;
+    let mut largest = 0;
+    for round in 0..50 {
+        let guests = (0..60).map(|index| crowd.add_caster(index, place(&mut random))).collect::<Result<Vec<_>, _>>()?;
+        let light = crowd.add_light(&(lamp(DVec3::Y), if round % 2 == 0 { "smoothies" } else { "pcf" }))?;
+        largest = largest.max(guests.iter().map(|guest| guest.index()).max().unwrap_or(0));
+        if round % 10 == 0 {
+            crowd.draw()?;
+        }
+        for guest in &guests {
+            crowd.shadows.remove_caster(*guest).map_err(text)?;
+        }
+        crowd.shadows.remove_light(light).map_err(text)?;
+        let gone = crowd.shadows.place_caster(guests[0], &DMat4::IDENTITY);
+        if gone.is_ok() || crowd.shadows.set_light(light, &lamp(DVec3::X)).is_ok() {
+            return Err("what was removed is still there".into());
+        }
+    }
+    crowd.draw()?;
+    compare_exact("maps of the light that stayed", &before, &crowd.maps(stays)?)?;
+    if largest < 70 { Ok(()) } else { Err(format!("casters got the index {largest}")) }
+}
+
+fn commands_do_not_follow_the_casters(gpu: &Gpu) -> Outcome {
+    let recorded = |count: usize| {
+        let mut crowd = Crowd::new(gpu, count, 5)?;
+        for light in &lights() {
+            crowd.add_light(light)?;
+        }
+        crowd.draw()?;
+        // All lights and one caster move.
+        let moved = DMat4::from_translation(DVec3::Y);
+        crowd.shadows.place_caster(crowd.casters[0], &moved).map_err(text)?;
+        crowd.shadows.prepare(&gpu.device, &gpu.queue).map_err(text)?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        crowd.shadows.encode(&mut encoder, &mut Untimed);
+        gpu.queue.submit([encoder.finish()]);
+        let stats = crowd.shadows.stats();
+        Ok::<_, String>([u64::from(stats.dispatches_recorded), stats.draws_recorded.into(), stats.upload_bytes])
+    };
+    let (few, many) = (recorded(1)?, recorded(200)?);
+    if few == many && few[0] > 100 { Ok(()) } else { Err(format!("1 caster: {few:?}, 200 casters: {many:?}")) }
+}
