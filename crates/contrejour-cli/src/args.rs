@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::report_args::ReportArguments;
 use crate::shadow_args::ShadowArguments;
 use crate::stability_args::StabilityArguments;
+use crate::stress_args::StressArguments;
 use crate::values::{parse_size, parse_vector};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -16,8 +17,8 @@ pub struct Arguments {
     pub command: Command,
 }
 
-const AFTER_HELP: &str =
-    "Exit status: 0 when done, 2 with one line on stderr when something is wrong; 1 when `stability` found a fault.";
+const AFTER_HELP: &str = "Exit status: 0 when done, 2 with one line on stderr when something is wrong; 1 when `stability` found a fault or \
+`stress --verify` a difference.";
 
 /// What every frame cost is kept until all are drawn.
 const MAX_FRAMES: i64 = 100_000;
@@ -36,6 +37,8 @@ pub enum Command {
     Report(ReportArguments),
     /// Try extreme cases until they break by definition, and write a table and a page about them
     Stability(StabilityArguments),
+    /// Draw many moving lights over many moving casters, and say what a frame costs
+    Stress(StressArguments),
 }
 
 #[derive(Debug, Args)]

@@ -16,6 +16,8 @@ mod shadow_args;
 mod silhouette;
 mod stability;
 mod stability_args;
+mod stress;
+mod stress_args;
 mod values;
 
 use std::process::ExitCode;
@@ -45,6 +47,7 @@ fn run(command: Command) -> Result<ExitCode, Failure> {
         Command::Plan(arguments) => done(plan::run(&arguments)),
         Command::Report(arguments) => done(report::run(&arguments)),
         Command::Stability(arguments) => stability::run(&arguments),
+        Command::Stress(arguments) => stress::run(&arguments),
     }
 }
 

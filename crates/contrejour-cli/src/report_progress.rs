@@ -53,6 +53,12 @@ impl Progress {
         }
     }
 
+    /// Replaces what is said beside the bar.
+    pub fn say(&self, message: String) {
+        self.bar.set_message(message);
+        self.bar.tick();
+    }
+
     /// One step of what was begun is done.
     pub fn step(&self) {
         self.bar.inc(1);

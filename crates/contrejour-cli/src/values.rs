@@ -32,6 +32,16 @@ pub fn parse_width(text: &str) -> Result<SmoothieWidth, String> {
     }
 }
 
+/// Seconds, more than 0 and up to a day.
+pub fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| format!("{text:?} is no number"))?;
+    if seconds > 0.0 && seconds <= 86_400.0 {
+        Ok(seconds)
+    } else {
+        Err("give more than 0 and up to 86400 seconds".into())
+    }
+}
+
 /// `NAME=NUMBER`.
 pub fn parse_assignment(text: &str) -> Result<(String, f64), String> {
     let (name, number) = text.split_once('=').ok_or("give a name and a number, as in filter_samples=64")?;

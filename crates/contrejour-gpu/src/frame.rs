@@ -78,15 +78,14 @@ impl Frame {
     }
 
     /// Records the stages and the passes over the maps, view by view, and copies what each counted. `records` are those of
-    /// the views on the first page.
+    /// the views on the first page; `after` is called behind each view.
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        plan: &FramePlan,
-        shared: &Buffers,
-        records: &[LightView],
+        (plan, shared, records): (&FramePlan, &Buffers, &[LightView]),
         mut counted: Option<Copying<'_>>,
         timer: &mut T,
+        mut after: impl FnMut(&mut wgpu::CommandEncoder, usize),
     ) -> Recorded {
         let mut recorded = Recorded::default();
         for ((groups, record), view) in self.views.iter().zip(records).zip(0..) {
@@ -101,6 +100,7 @@ impl Frame {
             if let Some(counted) = &mut counted {
                 counted.copy(encoder, shared.all(BufferKind::Counters));
             }
+            after(encoder, view);
         }
         if let Some(counted) = counted {
             counted.finish(encoder);

@@ -42,6 +42,6 @@ pub use inputs::{FrameStats, Maps, ShadowOptions, device_facts};
 pub use lights::LightHandle;
 pub use pieces::mesh_pieces;
 pub use pool::{MeshHandle, mesh_facts};
-pub use shadows::Shadows;
+pub use shadows::{FilledView, Shadows};
 pub use timer::{PassTimer, Untimed};
 pub use visibility::EyeInput;

@@ -190,19 +190,20 @@ impl LightState {
         self.is_due
     }
 
-    /// Records what fills its maps.
+    /// Records what fills its maps; calls `after` behind each view.
     pub fn encode<T: PassTimer>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         shared: &Buffers,
         timer: &mut T,
+        after: impl FnMut(&mut wgpu::CommandEncoder, usize),
     ) -> Recorded {
         let Some(plan) = &self.plan else { return Recorded::default() };
         let of_page = plan.pages.iter().map(|page| page.capacity());
         let capacities = std::iter::repeat_n(of_page, self.views.len()).flatten().collect();
         let counted = if plan.stages.is_empty() { None } else { self.readback.begin(capacities) };
         self.is_due = false;
-        self.frame.encode(encoder, plan, shared, &self.records.light_views, counted, timer)
+        self.frame.encode(encoder, (plan, shared, &self.records.light_views), counted, timer, after)
     }
 
     /// Takes the counters that have arrived. Returns the overflows, and the room that was missing.

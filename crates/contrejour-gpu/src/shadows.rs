@@ -15,6 +15,7 @@ use crate::heartbeat::poll;
 use crate::inputs::{FrameStats, Maps, ShadowOptions, device_facts};
 use crate::lights::{LightHandle, LightState};
 use crate::pool::{MeshHandle, MeshPool};
+use crate::resources::Buffers;
 use crate::scene_buffers::SceneBuffers;
 use crate::slots::Slots;
 use crate::timer::PassTimer;
@@ -164,19 +165,38 @@ impl Shadows {
         Ok(())
     }
 
+    /// Lets the maps of all lights be made anew in the next frame, whether or not anything changed.
+    pub fn redraw(&mut self) {
+        self.lights.iter_mut().for_each(|(_, light)| light.make_due());
+    }
+
     /// Records the frame: for each light whose maps do not stand, compute stages and the passes that fill them. Nothing is
     /// recorded for a light that saw no change since its maps were made.
     ///
     /// The encoder's commands must be submitted, or dropped together with this object.
     pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
+        self.encode_each(encoder, timer, |_, _| ());
+    }
+
+    /// Records the frame as [`encode`](Self::encode) does, and calls `after` where a view's stages and passes are recorded:
+    /// for commands of the caller's own that need its lists, before the next view fills them anew.
+    pub fn encode_each<T: PassTimer>(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &mut T,
+        mut after: impl FnMut(&mut wgpu::CommandEncoder, &FilledView<'_>),
+    ) {
         (self.stats.dispatches_recorded, self.stats.draws_recorded) = (0, 0);
         let is_due = self.lights.iter().any(|(_, light)| light.is_due());
         if self.is_stale || !is_due {
             return;
         }
         self.buffers.encode_copies(encoder, &self.casters.live_copies(&self.meshes));
-        for (_, light) in self.lights.iter_mut().filter(|(_, light)| light.is_due()) {
-            let recorded = light.encode(encoder, self.buffers.shared(), timer);
+        let shared = self.buffers.shared();
+        for (key, light) in self.lights.iter_mut().filter(|(_, light)| light.is_due()) {
+            let recorded = light.encode(encoder, shared, timer, |encoder, view| {
+                after(encoder, &FilledView { light: LightHandle(key), view, shared });
+            });
             self.stats.dispatches_recorded += recorded.dispatches;
             self.stats.draws_recorded += recorded.draws;
         }
@@ -354,6 +374,23 @@ impl Shadows {
         }
         let counted: Vec<_> = self.lights.iter().filter_map(|(_, light)| light.counters).collect();
         self.stats.counters = (!counted.is_empty()).then(|| counted.into_iter().sum());
+    }
+}
+
+/// A view whose lists are filled; see [`Shadows::encode_each`].
+#[derive(Clone, Copy, Debug)]
+pub struct FilledView<'a> {
+    /// Whose view it is.
+    pub light: LightHandle,
+    /// Its index among the light's views.
+    pub view: usize,
+    shared: &'a Buffers,
+}
+
+impl FilledView<'_> {
+    /// The buffers of a kind, page by page, as [`Shadows::buffers`] has them.
+    pub fn buffers(&self, kind: BufferKind) -> impl Iterator<Item = &wgpu::Buffer> {
+        self.shared.all(kind)
     }
 }
 

@@ -56,8 +56,12 @@ impl<T> Slots<T> {
         self.slots.iter().enumerate().filter_map(|(slot, entry)| Some((slot, entry.item.as_ref()?)))
     }
 
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = (usize, &mut T)> {
-        self.slots.iter_mut().enumerate().filter_map(|(slot, entry)| Some((slot, entry.item.as_mut()?)))
+    /// What is there, with its key, by ascending place.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = (Key, &mut T)> {
+        self.slots.iter_mut().enumerate().filter_map(|(slot, entry)| {
+            let key = Key { slot, generation: entry.generation };
+            Some((key, entry.item.as_mut()?))
+        })
     }
 
     /// Whatever is at a place.

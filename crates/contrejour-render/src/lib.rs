@@ -47,6 +47,6 @@ pub use renderer::Renderer;
 pub use save::{SaveError, check_folder, save_file};
 pub use scene_meshes::MeshTooLarge;
 pub use silhouettes::read_silhouettes;
-pub use stage_timer::PassTime;
+pub use stage_timer::{PassTime, StageTimer, TimedStage};
 pub use targets::SizeTooLarge;
 pub use views::View;

@@ -41,14 +41,14 @@ pub fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8
 /// [`ReadError`] when the device fails.
 pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_texel: u32) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    read_rows(gpu, texture, 0, bytes_per_texel, |row| bytes.extend_from_slice(row))?;
+    read_rows(gpu, texture, [0, 0], bytes_per_texel, |row| bytes.extend_from_slice(row))?;
     Ok(bytes)
 }
 
 /// What is copied at once where a texture may be copied in parts. Unit: bytes.
 const PART_MAX: u32 = 1 << 26;
 
-/// Hands out the rows of a level of a texture one by one, as [`read_texture`] has them, so that no whole copy is held but
+/// Hands out the rows of a layer and a level of a texture one by one, as [`read_texture`] has them, so that no whole copy is held but
 /// of depth.
 ///
 /// # Errors
@@ -57,7 +57,7 @@ const PART_MAX: u32 = 1 << 26;
 pub fn read_rows(
     gpu: &Gpu,
     texture: &wgpu::Texture,
-    mip_level: u32,
+    [layer, mip_level]: [u32; 2],
     bytes_per_texel: u32,
     mut take: impl FnMut(&[u8]),
 ) -> Result<(), ReadError> {
@@ -74,7 +74,7 @@ pub fn read_rows(
         encoder.copy_texture_to_buffer(
             wgpu::TexelCopyTextureInfo {
                 mip_level,
-                origin: wgpu::Origin3d { x: 0, y: begin, z: 0 },
+                origin: wgpu::Origin3d { x: 0, y: begin, z: layer },
                 ..texture.as_image_copy()
             },
             wgpu::TexelCopyBufferInfo {

@@ -6,7 +6,7 @@ use wgpu_profiler::{GpuProfiler, GpuProfilerQuery, GpuProfilerSettings, GpuTimer
 use crate::Gpu;
 
 /// Times passes by timestamps; where the device has none, nothing is timed.
-pub(crate) struct StageTimer {
+pub struct StageTimer {
     profiler: GpuProfiler,
     timestamp_period: f32,
     stages: Vec<TimedStage>,
@@ -40,6 +40,11 @@ pub struct PassTime {
 const MAX_PENDING_FRAMES: usize = 8;
 
 impl StageTimer {
+    /// A timer on a device.
+    ///
+    /// # Errors
+    ///
+    /// The profiler's settings do not fit the device.
     pub fn new(gpu: &Gpu) -> Result<Self, wgpu_profiler::CreationError> {
         let settings = GpuProfilerSettings {
             enable_timer_queries: gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY),
@@ -59,6 +64,10 @@ impl StageTimer {
     }
 
     /// Ends a frame after its submission.
+    ///
+    /// # Errors
+    ///
+    /// Queries of the frame were not resolved.
     pub fn end_frame(&mut self) -> Result<(), wgpu_profiler::EndFrameError> {
         self.profiler.end_frame()
     }
@@ -71,7 +80,7 @@ impl StageTimer {
     }
 
     /// Takes the times of the oldest frame that have arrived, in the order in which its stages ran.
-    pub fn take_frame(&mut self) -> Option<FrameTime> {
+    pub(crate) fn take_frame(&mut self) -> Option<FrameTime> {
         self.profiler.process_finished_frame(self.timestamp_period).map(|passes| FrameTime::of(&passes))
     }
 

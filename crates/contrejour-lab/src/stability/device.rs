@@ -178,9 +178,12 @@ impl<'a> DeviceFrame<'a> {
         let mut count = 0;
         for texture in textures.into_iter().flatten() {
             let format = texture.format();
-            for level in 0..texture.mip_level_count() {
+            let layers = texture.depth_or_array_layers();
+            for (layer, level) in
+                (0..layers).flat_map(|layer| (0..texture.mip_level_count()).map(move |level| (layer, level)))
+            {
                 let take = |row: &[u8]| count += non_finite(&floats(format, row));
-                read_rows(self.gpu, texture, level, bytes_per_texel(format), take)?;
+                read_rows(self.gpu, texture, [layer, level], bytes_per_texel(format), take)?;
             }
         }
         Ok(count)

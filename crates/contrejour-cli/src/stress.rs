@@ -1,0 +1,103 @@
+//! `contrejour stress`: many moving lights over many moving casters.
+
+use std::process::ExitCode;
+use std::time::Duration;
+
+use contrejour_lab::report::PlotUse;
+use contrejour_lab::stress::{Event, StressOptions, Summary, run as run_one, sweep};
+use contrejour_plan::ShadowSettings;
+use contrejour_render::{Gpu, check_folder, save_file};
+
+use crate::failure::Failure;
+use crate::output::{print, warn};
+use crate::report_progress::Progress;
+use crate::stress_args::StressArguments;
+
+/// A difference is no bad input.
+const DIFFERENCE_FOUND: u8 = 1;
+
+pub fn run(arguments: &StressArguments) -> Result<ExitCode, Failure> {
+    let options = StressOptions {
+        lights: arguments.lights,
+        kind: arguments.kind,
+        casters: arguments.casters,
+        triangles_per_caster: arguments.triangles_per_caster,
+        duration: Duration::from_secs_f64(arguments.seconds),
+        settings: arguments.shadow.applied_to(ShadowSettings::default())?,
+        verify: arguments.verify,
+        seed: arguments.seed,
+    };
+    if arguments.sweep.is_some() {
+        check_folder(&arguments.output)?;
+    }
+    let gpu = Gpu::open()?;
+    let progress = Progress::new();
+    let show = |event: Event| show(&progress, event);
+    let runs = match arguments.sweep {
+        None => run_one(&gpu, &options, &show).map(|summary| vec![summary]),
+        Some(axis) => match sweep(&gpu, axis, &options, &show) {
+            Ok(swept) => {
+                let file = |ending: &str| arguments.output.join(format!("stress-{axis}.{ending}"));
+                save_file(swept.csv().as_bytes(), &file("csv"))?;
+                let svg = swept.plot().to_svg(&format!("Time of a frame against {axis}"), PlotUse::File)?;
+                save_file(svg.as_bytes(), &file("svg"))?;
+                Ok(swept.runs)
+            }
+            Err(error) => Err(error),
+        },
+    };
+    progress.done();
+    let runs = runs?;
+    print(&told(arguments, &runs)?)?;
+    let found = runs.iter().find_map(|run| run.first_difference.as_ref());
+    if let Some(difference) = found {
+        warn(difference);
+    }
+    Ok(if found.is_none() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENCE_FOUND) })
+}
+
+fn show(progress: &Progress, event: Event) {
+    let Event::Frame { frames, cpu_ms, verified_light_frames } = event;
+    progress.say(format!("frame {frames}: CPU {cpu_ms:.3} ms, {verified_light_frames} light-frames verified"));
+}
+
+fn told(arguments: &StressArguments, runs: &[Summary]) -> Result<String, Failure> {
+    if arguments.json {
+        return Ok(match runs {
+            [run] if arguments.sweep.is_none() => serde_json::to_string_pretty(run)?,
+            runs => serde_json::to_string_pretty(runs)?,
+        });
+    }
+    Ok(runs.iter().map(table).collect::<Vec<_>>().join("\n\n"))
+}
+
+/// A compact table of a run.
+fn table(run: &Summary) -> String {
+    let Summary { lights, views, casters, triangles_per_caster, seed, frames, .. } = run;
+    let mut lines = vec![
+        format!("device     {}", run.device),
+        format!(
+            "scene      {lights} lights ({views} views), {casters} casters of {triangles_per_caster} triangles, seed {seed}"
+        ),
+        format!("frames     {frames}, {:.1} ms each on the wall", run.wall_ms_per_frame),
+        format!(
+            "CPU        {:.3} ms a frame: {:.3} upload, {:.3} record, {:.3} submit",
+            run.cpu_ms_per_frame, run.cpu_upload_ms, run.cpu_record_ms, run.cpu_submit_ms
+        ),
+        format!(
+            "commands   {} draws, {} dispatches, {} bytes uploaded",
+            run.draws_recorded, run.dispatches_recorded, run.upload_bytes_per_frame
+        ),
+        format!(
+            "work       {} faces, {} edges tested, {} in silhouettes",
+            run.faces_tested, run.edges_tested, run.silhouette_edges
+        ),
+        format!("lights     {} redone, {} kept", run.lights_redone, run.lights_kept),
+        format!("memory     {:.1} MiB, {} overflows", run.memory_bytes as f64 / 1_048_576.0, run.overflow_frames),
+    ];
+    if run.verified_light_frames > 0 {
+        lines.push(format!("verified   {} light-frames, {} differences", run.verified_light_frames, run.differences));
+    }
+    lines.extend(run.stages.iter().map(|stage| format!("  {:<22} {:.3} ms", stage.name, stage.gpu_ms)));
+    lines.join("\n")
+}

@@ -1,0 +1,58 @@
+//! What can be said about a stress run.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use contrejour_lab::stress::{LightMix, SweepAxis};
+
+use crate::shadow_args::ShadowArguments;
+use crate::values::parse_seconds;
+
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct StressArguments {
+    /// Moving lights
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub lights: usize,
+
+    /// Kinds of lights: mixed, point, spot or directional
+    #[arg(long, value_name = "KIND", default_value_t = LightMix::Mixed)]
+    pub kind: LightMix,
+
+    /// Moving casters
+    #[arg(long, value_name = "N", default_value_t = 16)]
+    pub casters: usize,
+
+    /// Triangles of each caster, nearly
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub triangles_per_caster: usize,
+
+    /// How long frames are drawn
+    #[arg(long, value_name = "S", default_value = "5", value_parser = parse_seconds)]
+    pub seconds: f64,
+
+    /// Seed of all paths
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+
+    /// Compare frames that are taken at random with exact arithmetic and with frames drawn from scratch
+    #[arg(long)]
+    pub verify: bool,
+
+    /// Vary one number (lights, casters or triangles) and write stress-AXIS.csv and stress-AXIS.svg
+    #[arg(long, value_name = "AXIS")]
+    pub sweep: Option<SweepAxis>,
+
+    /// Where the files of a sweep go; made where it is missing
+    #[arg(short, long, value_name = "DIR", default_value = ".")]
+    pub output: PathBuf,
+
+    /// Print one JSON object, with --sweep one array of them
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub shadow: ShadowArguments,
+}
+
+const AFTER_HELP: &str = "Exit status: 0 when done, 1 when `--verify` found a difference, 2 when something is wrong.";

@@ -1,0 +1,64 @@
+//! What a run is made of.
+
+use std::time::Duration;
+
+use contrejour_plan::ShadowSettings;
+
+use super::LightMix;
+use super::error::StressError;
+
+/// What a run is made of.
+#[derive(Clone, Debug)]
+pub struct StressOptions {
+    /// Lights. Range: 0 and up. Default: 8.
+    pub lights: usize,
+    /// Their kinds. Default: mixed.
+    pub kind: LightMix,
+    /// Casters. Range: 0 and up. Default: 16.
+    pub casters: usize,
+    /// Triangles of each caster, nearly. Range: 8 to [`MAX_TRIANGLES`](Self::MAX_TRIANGLES). Default: 1000.
+    pub triangles_per_caster: usize,
+    /// How long frames are drawn; one is drawn in any case. Default: 5 s.
+    pub duration: Duration,
+    /// How shadows are made.
+    pub settings: ShadowSettings,
+    /// Whether frames that are taken at random are compared with exact arithmetic and with frames drawn from scratch.
+    /// Default: no.
+    pub verify: bool,
+    /// Seed of all paths. Default: 1.
+    pub seed: u64,
+}
+
+impl Default for StressOptions {
+    fn default() -> Self {
+        Self {
+            lights: 8,
+            kind: LightMix::Mixed,
+            casters: 16,
+            triangles_per_caster: 1000,
+            duration: Duration::from_secs(5),
+            settings: ShadowSettings::default(),
+            verify: false,
+            seed: 1,
+        }
+    }
+}
+
+impl StressOptions {
+    /// Fewest triangles of a caster.
+    pub const MIN_TRIANGLES: usize = 8;
+
+    /// Most triangles of a caster.
+    pub const MAX_TRIANGLES: usize = 4 << 20;
+
+    /// # Errors
+    ///
+    /// A number is out of its range.
+    pub(super) fn check(&self) -> Result<(), StressError> {
+        let range = Self::MIN_TRIANGLES..=Self::MAX_TRIANGLES;
+        if !range.contains(&self.triangles_per_caster) {
+            return Err(StressError::Triangles { triangles: self.triangles_per_caster });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,197 @@
+//! Frame after frame.
+
+use std::collections::VecDeque;
+use std::time::Instant;
+
+use contrejour_gpu::{Shadows, Untimed};
+use contrejour_layout::BLOCK_SIZE;
+use contrejour_plan::FramePlan;
+use contrejour_render::{Gpu, StageTimer};
+use cpu_time::ThreadTime;
+
+use super::error::StressError;
+use super::options::StressOptions;
+use super::summary::{StageTime, Summary, median};
+use super::verify::Verifier;
+use super::world::{Placed, World};
+
+/// Frames after which a frame must have had room for everything.
+const REPEATS_MAX: usize = 8;
+
+/// Frames that may be under way.
+const IN_FLIGHT: usize = 2;
+
+/// Of so many frames one is verified.
+const VERIFIED_OF: u64 = 16;
+
+/// Frames at the end whose stages are timed.
+const TIMED_FRAMES: usize = 5;
+
+/// What happens in a run.
+#[derive(Clone, Copy, Debug)]
+pub enum Event {
+    /// A frame was drawn.
+    Frame {
+        /// Frames so far.
+        frames: u64,
+        /// CPU time of this one. Unit: milliseconds.
+        cpu_ms: f64,
+        /// Lights of frames that were verified so far.
+        verified_light_frames: u64,
+    },
+}
+
+/// What each frame cost. Unit of all: milliseconds.
+#[derive(Debug, Default)]
+struct Costs {
+    cpu: Vec<f64>,
+    upload: Vec<f64>,
+    record: Vec<f64>,
+    submit: Vec<f64>,
+    wall: Vec<f64>,
+}
+
+/// Draws frames for a while and says what came of it.
+///
+/// # Errors
+///
+/// The options are out of range, or the device does not allow the frames or fails.
+pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<Summary, StressError> {
+    let world = World::new(options)?;
+    let mut placed = world.place(gpu, 0)?;
+    settle(gpu, &mut placed.shadows)?;
+    let overflows_before = placed.shadows.stats().overflow_frames;
+
+    let mut summary = Summary::default();
+    let mut costs = Costs::default();
+    let mut random = fastrand::Rng::with_seed(options.seed ^ 0x5eed);
+    let mut verifier = Verifier::new(&world);
+    let mut submissions = VecDeque::new();
+    let clock = Instant::now();
+    let mut frame = 0;
+    while frame == 0 || clock.elapsed() < options.duration {
+        frame += 1;
+        let wall = Instant::now();
+        submissions.push_back(draw(gpu, &world, &mut placed, frame, &mut costs)?);
+        while submissions.len() > IN_FLIGHT {
+            gpu.wait(submissions.pop_front())?;
+        }
+        costs.wall.push(1000.0 * wall.elapsed().as_secs_f64());
+        let stats = placed.shadows.stats();
+        summary.lights_redone += u64::from(stats.lights_redone);
+        summary.lights_kept += u64::from(stats.lights_kept);
+        summary.upload_bytes_per_frame = stats.upload_bytes;
+        summary.draws_recorded = stats.draws_recorded;
+        summary.dispatches_recorded = stats.dispatches_recorded;
+        if options.verify && (frame == 1 || random.u64(..VERIFIED_OF) == 0) {
+            gpu.wait(None)?;
+            submissions.clear();
+            verifier.check(gpu, &mut placed, frame)?;
+        }
+        tell(Event::Frame {
+            frames: frame,
+            cpu_ms: costs.cpu.last().copied().unwrap_or(0.0),
+            verified_light_frames: verifier.light_frames,
+        });
+    }
+    gpu.wait(None)?;
+    summary.overflow_frames = placed.shadows.stats().overflow_frames - overflows_before;
+    summary.stages = stages(gpu, &world, &mut placed, frame)?;
+    gpu.check()?;
+
+    summary.device = gpu.description();
+    summary.lights = options.lights;
+    summary.casters = options.casters;
+    summary.triangles_per_caster = world.triangles.len();
+    summary.seed = options.seed;
+    summary.frames = frame;
+    summary.cpu_ms_per_frame = median(costs.cpu);
+    summary.cpu_upload_ms = median(costs.upload);
+    summary.cpu_record_ms = median(costs.record);
+    summary.cpu_submit_ms = median(costs.submit);
+    summary.wall_ms_per_frame = median(costs.wall);
+    add_counts(&mut summary, &placed);
+    summary.verified_light_frames = verifier.light_frames;
+    summary.differences = verifier.differences;
+    summary.first_difference = verifier.first_difference;
+    Ok(summary)
+}
+
+/// Draws the first frame until all lists have room, so that later ones create nothing.
+pub(super) fn settle(gpu: &Gpu, shadows: &mut Shadows) -> Result<(), StressError> {
+    for _ in 0..REPEATS_MAX {
+        shadows.prepare(&gpu.device, &gpu.queue)?;
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        shadows.encode(&mut encoder, &mut Untimed);
+        gpu.queue.submit([encoder.finish()]);
+        gpu.wait(None)?;
+        if shadows.buffer(contrejour_plan::BufferKind::Counters).is_some() {
+            shadows.wait_for_counters(&gpu.device)?;
+        }
+        if shadows.is_complete() {
+            return Ok(());
+        }
+    }
+    Err(StressError::Incomplete(REPEATS_MAX))
+}
+
+fn draw(
+    gpu: &Gpu,
+    world: &World,
+    placed: &mut Placed,
+    frame: u64,
+    costs: &mut Costs,
+) -> Result<wgpu::SubmissionIndex, StressError> {
+    let clock = ThreadTime::now();
+    let ms = |clock: ThreadTime| 1000.0 * clock.elapsed().as_secs_f64();
+    placed.walk(world, frame)?;
+    placed.shadows.prepare(&gpu.device, &gpu.queue)?;
+    costs.upload.push(ms(clock));
+    let record = ThreadTime::now();
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("stress") });
+    placed.shadows.encode(&mut encoder, &mut Untimed);
+    let commands = encoder.finish();
+    costs.record.push(ms(record));
+    let submit = ThreadTime::now();
+    let submission = gpu.queue.submit([commands]);
+    costs.submit.push(ms(submit));
+    costs.cpu.push(ms(clock));
+    Ok(submission)
+}
+
+/// Times the stages of a few more frames, each a pass of its own.
+fn stages(gpu: &Gpu, world: &World, placed: &mut Placed, last: u64) -> Result<Vec<StageTime>, StressError> {
+    let told = |error: String| StressError::Timer(error);
+    let mut timer = StageTimer::new(gpu).map_err(|error| told(error.to_string()))?;
+    for frame in (last + 1..).take(TIMED_FRAMES) {
+        placed.walk(world, frame)?;
+        placed.shadows.prepare(&gpu.device, &gpu.queue)?;
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("timed") });
+        placed.shadows.encode(&mut encoder, &mut timer);
+        timer.resolve(&mut encoder);
+        gpu.queue.submit([encoder.finish()]);
+        timer.end_frame().map_err(|error| told(error.to_string()))?;
+        gpu.wait(None)?;
+        timer.collect();
+    }
+    let time = |stage: &contrejour_render::TimedStage| StageTime {
+        name: stage.name.clone(),
+        gpu_ms: median(stage.times_ms.clone()),
+    };
+    Ok(timer.stages().iter().map(time).collect())
+}
+
+fn add_counts(summary: &mut Summary, placed: &Placed) {
+    let counters = placed.shadows.stats().counters.unwrap_or_default();
+    summary.faces_tested = u64::from(counters.face_items) * u64::from(BLOCK_SIZE);
+    summary.edges_tested = u64::from(counters.edge_items) * u64::from(BLOCK_SIZE);
+    summary.silhouette_edges = counters.silhouette_edges.into();
+    let plans: Vec<&FramePlan> = placed.lights.iter().filter_map(|light| placed.shadows.plan(*light)).collect();
+    let of_lights = plans.iter().flat_map(|plan| &plan.buffers).filter(|buffer| buffer.kind.is_of_light());
+    let shared = plans.first().map_or(&[][..], |plan| &plan.buffers);
+    let shared = shared.iter().filter(|buffer| !buffer.kind.is_of_light());
+    let textures = plans.iter().flat_map(|plan| &plan.textures);
+    summary.memory_bytes = of_lights.chain(shared).map(|buffer| buffer.bytes).sum::<u64>()
+        + textures.map(|texture| texture.bytes).sum::<u64>();
+    summary.views = placed.lights.iter().map(|light| placed.shadows.view_choice(*light).views()).sum();
+}

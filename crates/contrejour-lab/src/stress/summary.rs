@@ -1,0 +1,77 @@
+//! What a run came to.
+
+use serde::Serialize;
+
+/// What a run came to.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Summary {
+    /// The device, in words.
+    pub device: String,
+    /// Lights.
+    pub lights: usize,
+    /// Views of all lights together.
+    pub views: usize,
+    /// Casters.
+    pub casters: usize,
+    /// Triangles of each caster.
+    pub triangles_per_caster: usize,
+    /// Seed of all paths.
+    pub seed: u64,
+    /// Frames that were drawn.
+    pub frames: u64,
+    /// CPU time of the thread that places, prepares, records and submits: half of the frames took at most this. Unit:
+    /// milliseconds.
+    pub cpu_ms_per_frame: f64,
+    /// The part in which commands are recorded. Unit: milliseconds.
+    pub cpu_record_ms: f64,
+    /// The part in which casters and lights are placed and records uploaded. Unit: milliseconds.
+    pub cpu_upload_ms: f64,
+    /// The part in which commands are submitted. Unit: milliseconds.
+    pub cpu_submit_ms: f64,
+    /// From the begin of a frame to the begin of the next on the wall, verification aside: half took at most this. Unit:
+    /// milliseconds.
+    pub wall_ms_per_frame: f64,
+    /// Records that a frame uploads. Unit: bytes.
+    pub upload_bytes_per_frame: u64,
+    /// Draws that a frame records.
+    pub draws_recorded: u32,
+    /// Dispatches that a frame records.
+    pub dispatches_recorded: u32,
+    /// Stages and passes of the last frames, of all views together. Empty where the device has no timestamps.
+    pub stages: Vec<StageTime>,
+    /// Faces of the casters that cast, over all views of the last frame that was counted.
+    pub faces_tested: u64,
+    /// Edges of the same, at most.
+    pub edges_tested: u64,
+    /// Silhouette edges of the same frame.
+    pub silhouette_edges: u64,
+    /// Lights whose maps were made, over all frames.
+    pub lights_redone: u64,
+    /// Lights whose maps stood, over all frames.
+    pub lights_kept: u64,
+    /// Buffers and textures of all lights. Unit: bytes.
+    pub memory_bytes: u64,
+    /// Frames whose quads or corners found too little room.
+    pub overflow_frames: u64,
+    /// Lights of frames that were verified.
+    pub verified_light_frames: u64,
+    /// Differences from exact arithmetic and from frames drawn from scratch.
+    pub differences: u64,
+    /// The first of them, in words.
+    pub first_difference: Option<String>,
+}
+
+/// How long a stage or a pass took.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StageTime {
+    /// Its name.
+    pub name: String,
+    /// Time of a frame on the device: half took at most this. Unit: milliseconds.
+    pub gpu_ms: f64,
+}
+
+/// The median; 0 of nothing.
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,205 @@
+//! Frames against exact arithmetic, and against frames drawn from scratch.
+
+use contrejour_gpu::{LightHandle, Shadows, Untimed};
+use contrejour_layout::{CasterLight, Counters, SilhouetteEdge};
+use contrejour_oracle::{ManyLights, OracleEdge, OracleTopology};
+use contrejour_plan::{
+    BufferKind, NearOne, ObjectBox, Stage, TextureKind, View, caster_light, guard_ndc, views_with_guard,
+};
+use contrejour_render::{Gpu, read_buffer, read_rows};
+use glam::DMat4;
+
+use super::error::StressError;
+use super::run::settle;
+use super::world::{Placed, World};
+
+/// Differences so far.
+pub(super) struct Verifier<'a> {
+    world: &'a World,
+    oracle: ManyLights,
+    pub light_frames: u64,
+    pub differences: u64,
+    pub first_difference: Option<String>,
+}
+
+/// Copies of what the stages of a view left.
+struct Left {
+    light: LightHandle,
+    view: usize,
+    /// Of each page: counters, silhouettes.
+    pages: Vec<[wgpu::Buffer; 2]>,
+    caster_lights: wgpu::Buffer,
+}
+
+/// Boxes so much smaller must be out of view, for what the device's 32-bit test may not see.
+const CERTAINLY: f64 = 0.98;
+
+impl<'a> Verifier<'a> {
+    pub fn new(world: &'a World) -> Self {
+        let oracle = ManyLights::new(&OracleTopology::new(&world.mesh.positions, &world.triangles));
+        Self { world, oracle, light_frames: 0, differences: 0, first_difference: None }
+    }
+
+    /// Compares what a frame left with the same frame drawn from scratch, then draws all lights once more and holds the
+    /// lists of each view against exact arithmetic.
+    pub fn check(&mut self, gpu: &Gpu, placed: &mut Placed, frame: u64) -> Result<(), StressError> {
+        // First what the frame left: some of it may have been kept from frames before.
+        self.check_maps(gpu, placed, frame)?;
+        let left = draw_again(gpu, &mut placed.shadows)?;
+        let places: Vec<_> = self.world.casters(frame).collect();
+        let lights: Vec<_> = self.world.lights(frame).collect();
+        for left in &left {
+            let index = placed.lights.iter().position(|light| *light == left.light).unwrap_or(0);
+            let settings = self.world.settings();
+            let views = views_with_guard(&lights[index], guard_ndc(&lights[index], settings));
+            let view = views.map_err(contrejour_gpu::ShadowLightError::from)?[left.view];
+            let what = format!("frame {frame}, light {index}, view {}", left.view);
+            self.check_view(gpu, left, &view, &places, &what)?;
+        }
+        self.light_frames += lights.len() as u64;
+        Ok(())
+    }
+
+    fn check_view(
+        &mut self,
+        gpu: &Gpu,
+        left: &Left,
+        view: &View,
+        places: &[DMat4],
+        what: &str,
+    ) -> Result<(), StressError> {
+        let caster_lights: Vec<CasterLight> = read(gpu, &left.caster_lights, left.caster_lights.size())?;
+        let mut silhouettes: Vec<SilhouetteEdge> = Vec::new();
+        for [counters, list] in &left.pages {
+            let counters: Vec<Counters> = read(gpu, counters, size_of::<Counters>() as u64)?;
+            let count = u64::from(counters[0].silhouette_edges);
+            silhouettes.extend(read::<SilhouetteEdge>(gpu, list, count * size_of::<SilhouetteEdge>() as u64)?);
+        }
+        let mesh = &*self.world.mesh;
+        let near_one = NearOne::of_box(mesh.bounds_min, mesh.bounds_max);
+        let reach_ndc = view.reach_ndc(self.world.settings());
+        for (index, place) in places.iter().enumerate() {
+            let expected = caster_light(view, place, &near_one);
+            let found = &caster_lights[index];
+            if found.casts == 0 {
+                let shrunk = [mesh.bounds_min, mesh.bounds_max].map(|corner| corner.map(|x| x * CERTAINLY as f32));
+                let bounds = ObjectBox { min: shrunk[0], max: shrunk[1], world_from_object: *place };
+                if expected.casts != 0 && view.can_see(&bounds, CERTAINLY * reach_ndc) {
+                    self.differ(&format!("{what}: caster {index} is left out"));
+                }
+                continue;
+            }
+            if found.light_object != expected.light_object || found.mirrored != expected.mirrored {
+                self.differ(&format!("{what}: caster {index} sees another light"));
+            }
+            if !left.pages.is_empty() {
+                self.check_silhouette(&expected, index, &silhouettes, what);
+            }
+        }
+        Ok(())
+    }
+
+    /// Holds the edges of a caster against those that exact arithmetic finds from the CPU's own light.
+    fn check_silhouette(&mut self, light: &CasterLight, caster: usize, silhouettes: &[SilhouetteEdge], what: &str) {
+        let lit = self.oracle.lit_faces(light.light_object.map(f32::from_bits), light.mirrored == 1);
+        let expected = self.oracle.silhouette(&lit);
+        let of_caster = silhouettes.iter().filter(|edge| edge.caster as usize == caster);
+        let mut found: Vec<_> = of_caster
+            .map(|silhouette| {
+                let edge = &self.world.mesh.edges[silhouette.edge_id as usize];
+                let [left, right] = [silhouette.left, silhouette.right].map(u32::cast_signed);
+                OracleEdge { low: edge.low_vertex, high: edge.high_vertex, left, right }
+            })
+            .collect();
+        found.sort_unstable();
+        if found != expected {
+            self.differ(&format!("{what}: caster {caster} has another silhouette"));
+        }
+    }
+
+    /// Holds the maps against those of a scene that knows nothing of the frames before.
+    fn check_maps(&mut self, gpu: &Gpu, placed: &Placed, frame: u64) -> Result<(), StressError> {
+        let mut scratch = self.world.place(gpu, frame)?;
+        settle(gpu, &mut scratch.shadows)?;
+        for (index, (light, anew)) in placed.lights.iter().zip(&scratch.lights).enumerate() {
+            if maps(gpu, &placed.shadows, *light)? != maps(gpu, &scratch.shadows, *anew)? {
+                self.differ(&format!("frame {frame}, light {index}: its maps are not those drawn from scratch"));
+            }
+        }
+        Ok(())
+    }
+
+    fn differ(&mut self, difference: &str) {
+        self.differences += 1;
+        self.first_difference.get_or_insert_with(|| difference.to_owned());
+    }
+}
+
+/// Draws the frame of a scene again, and keeps what each view leaves.
+fn draw_again(gpu: &Gpu, shadows: &mut Shadows) -> Result<Vec<Left>, StressError> {
+    shadows.redraw();
+    shadows.prepare(&gpu.device, &gpu.queue)?;
+    let mut left = Vec::new();
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("verified") });
+    shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
+        let mut copy = |buffer: &wgpu::Buffer| {
+            let copied = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("verified"),
+                size: buffer.size(),
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            });
+            encoder.copy_buffer_to_buffer(buffer, 0, &copied, 0, buffer.size());
+            copied
+        };
+        let Some(caster_lights) = view.buffers(BufferKind::CasterLights).next() else { return };
+        let pages = view.buffers(BufferKind::Counters).zip(view.buffers(BufferKind::Silhouettes));
+        left.push(Left {
+            light: view.light,
+            view: view.view,
+            pages: pages.map(|(counters, list)| [copy(counters), copy(list)]).collect(),
+            caster_lights: copy(caster_lights),
+        });
+    });
+    gpu.queue.submit([encoder.finish()]);
+    gpu.wait(None)?;
+    // Silhouettes are those of the lights whose technique has any.
+    for left in &mut left {
+        if shadows.plan(left.light).is_none_or(|plan| !plan.has_stage(Stage::DetectSilhouette)) {
+            left.pages.clear();
+        }
+    }
+    Ok(left)
+}
+
+fn read<T: bytemuck::AnyBitPattern + bytemuck::NoUninit>(
+    gpu: &Gpu,
+    buffer: &wgpu::Buffer,
+    size: u64,
+) -> Result<Vec<T>, StressError> {
+    Ok(bytemuck::pod_collect_to_vec(&read_buffer(gpu, buffer, size)?))
+}
+
+/// All texels that receivers look up.
+fn maps(gpu: &Gpu, shadows: &Shadows, light: LightHandle) -> Result<Vec<u8>, StressError> {
+    let maps = shadows.maps(light);
+    let kinds = shadows.plan(light).and_then(|plan| plan.visibility).map_or(&[][..], |kind| kind.textures());
+    let mut bytes = Vec::new();
+    for kind in kinds {
+        let map = match kind {
+            TextureKind::ShadowDepth => maps.shadow_depth,
+            TextureKind::ShadowHardwareDepth => maps.shadow_hardware_depth,
+            TextureKind::Moments => maps.moments,
+            TextureKind::SmoothieDepth => maps.smoothie_depth,
+            TextureKind::SmoothieAlpha => maps.smoothie_alpha,
+            TextureKind::SmoothieBuffer => maps.smoothie_buffer,
+        };
+        let Some(map) = map else { continue };
+        let aspect = map.format().has_depth_aspect().then_some(wgpu::TextureAspect::DepthOnly);
+        let texel = map.format().block_copy_size(aspect).unwrap_or(4);
+        for layer in 0..map.depth_or_array_layers() {
+            read_rows(gpu, map, [layer, 0], texel, |row| bytes.extend_from_slice(row))?;
+        }
+    }
+    Ok(bytes)
+}
