@@ -22,6 +22,7 @@
 //! | Matrices | column-major, named `<to>_from_<from>` |
 
 mod args;
+mod deform;
 mod light;
 mod outline;
 mod place;
@@ -29,6 +30,7 @@ mod shared_struct;
 mod topology;
 
 pub use args::*;
+pub use deform::*;
 pub use light::*;
 pub use outline::*;
 pub use place::*;

@@ -4,11 +4,16 @@ mod load;
 mod normals;
 mod planes;
 mod read_file;
+mod rig;
 mod topology;
 mod triangle_mesh;
 
 pub use load::*;
 pub use planes::FacePlanes;
 pub use read_file::{ReadFileError, read_file};
+pub use rig::{
+    AnimatedModel, Animation, DeformingMesh, DeformingMeshError, NodeTransform, PartPose, Pose, PoseError, Rig,
+    RigNode, RigPart, Skin, UnknownAnimation,
+};
 pub use topology::*;
 pub use triangle_mesh::*;

@@ -1,97 +1,12 @@
 //! glTF files that the test writes itself: JSON with its buffer as a data URI.
 #![cfg(feature = "gltf")]
 
-use std::fmt::Write;
-use std::path::Path;
+mod gltf_file;
 
-use contrejour_mesh::{LoadError, MeshFile, load, load_gltf};
+use contrejour_mesh::{LoadError, load};
 use glam::DVec3;
+use gltf_file::{Builder, F32, I16, U8, U16, f32_bytes, square, u16_bytes};
 use serde_json::{Value, json};
-
-/// A document with one mesh of one primitive, whose accessors are in the order in which they were added.
-struct Builder {
-    buffer: Vec<u8>,
-    root: Value,
-}
-
-const F32: u32 = 5126;
-const U16: u32 = 5123;
-const I16: u32 = 5122;
-const U8: u32 = 5121;
-
-impl Builder {
-    fn new() -> Self {
-        let root = json!({
-            "asset": {"version": "2.0"},
-            "nodes": [{"mesh": 0, "name": "body"}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-            "accessors": [], "bufferViews": [],
-        });
-        Self { buffer: Vec::new(), root }
-    }
-
-    fn accessor(mut self, component: u32, kind: &str, count: usize, bytes: &[u8]) -> Self {
-        let push = |list: &mut Value, item: Value| {
-            let list = list.as_array_mut().expect("is a list");
-            list.push(item);
-            list.len() - 1
-        };
-        let view = json!({"buffer": 0, "byteOffset": self.buffer.len(), "byteLength": bytes.len()});
-        let view = push(&mut self.root["bufferViews"], view);
-        let accessor = json!({"bufferView": view, "componentType": component, "type": kind, "count": count});
-        push(&mut self.root["accessors"], accessor);
-        self.buffer.extend(bytes);
-        self.buffer.resize(self.buffer.len().next_multiple_of(4), 0);
-        self
-    }
-
-    fn positions(self, positions: &[[f32; 3]]) -> Self {
-        self.accessor(F32, "VEC3", positions.len(), &f32_bytes(positions.as_flattened()))
-    }
-
-    fn set(mut self, pointer: &str, value: Value) -> Self {
-        let (parent, key) = pointer.rsplit_once('/').expect("starts with a slash");
-        match self.root.pointer_mut(parent).expect("exists") {
-            Value::Array(list) => list[key.parse::<usize>().expect("is an index")] = value,
-            object => object[key] = value,
-        }
-        self
-    }
-
-    fn load(mut self) -> Result<MeshFile, LoadError> {
-        let mut hex = String::new();
-        for byte in &self.buffer {
-            write!(hex, "%{byte:02X}").expect("writing to a string cannot fail");
-        }
-        let uri = format!("data:application/octet-stream,{hex}");
-        self.root["buffers"] = json!([{"byteLength": self.buffer.len(), "uri": uri}]);
-        load_gltf(self.root.to_string().as_bytes(), Path::new("literal.gltf"))
-    }
-
-    fn loaded(self) -> MeshFile {
-        self.load().unwrap_or_else(|error| panic!("{error}"))
-    }
-
-    fn refused(self) -> LoadError {
-        let error = self.load().expect_err("is broken");
-        assert!(!error.to_string().contains('\n'), "{error}");
-        error
-    }
-}
-
-fn f32_bytes(numbers: &[f32]) -> Vec<u8> {
-    numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
-}
-
-fn u16_bytes(numbers: &[u16]) -> Vec<u8> {
-    numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
-}
-
-const SQUARE: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
-
-fn square() -> Builder {
-    Builder::new().positions(&SQUARE)
-}
 
 #[test]
 fn lists_strips_and_fans_with_and_without_indices() {

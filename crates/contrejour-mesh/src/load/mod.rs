@@ -12,7 +12,7 @@ mod stl;
 
 use std::path::Path;
 
-use crate::{MeshFile, ReadFileError};
+use crate::{AnimatedModel, MeshFile, ReadFileError, Rig};
 
 pub use error::LoadError;
 #[cfg(feature = "gltf")]
@@ -53,6 +53,42 @@ pub fn load_bytes(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<M
     load_checked(format_of(path)?, bytes, path, read_beside)
 }
 
+/// [`load`] with what moves the meshes: nodes, skins, morph targets and animations. Only glTF files have any.
+///
+/// # Errors
+///
+/// As [`load`], and where a skin, a morph target or an animation that is read does not follow the format.
+pub fn load_animated(path: &Path) -> Result<AnimatedModel, LoadError> {
+    let format = format_of(path)?;
+    load_animated_checked(format, &read_file(path)?, path, &read_file)
+}
+
+/// [`load_animated`] from bytes, as [`load_bytes`].
+///
+/// # Errors
+///
+/// As [`load_animated`].
+pub fn load_animated_bytes(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<AnimatedModel, LoadError> {
+    load_animated_checked(format_of(path)?, bytes, path, read_beside)
+}
+
+fn load_animated_checked(
+    format: &'static str,
+    bytes: &[u8],
+    path: &Path,
+    read_beside: &ReadFile,
+) -> Result<AnimatedModel, LoadError> {
+    #[cfg(feature = "gltf")]
+    if format == "gltf" {
+        check_not_empty(bytes, path)?;
+        let mut model = gltf::load_animated(bytes, path, read_beside)?;
+        warn_without_faces(&mut model.file, path);
+        return Ok(model);
+    }
+    let file = load_checked(format, bytes, path, read_beside)?;
+    Ok(AnimatedModel { file, rig: Rig::default() })
+}
+
 /// The cargo feature of the format that a path's extension names.
 fn format_of(path: &Path) -> Result<&'static str, LoadError> {
     let extension = path.extension().and_then(|extension| extension.to_str());
@@ -72,14 +108,20 @@ fn load_checked(
     path: &Path,
     read_beside: &ReadFile,
 ) -> Result<MeshFile, LoadError> {
-    if bytes.is_empty() {
-        return Err(LoadError::Empty { path: path.into() });
-    }
+    check_not_empty(bytes, path)?;
     let mut file = load_format(format, bytes, path, read_beside)?;
+    warn_without_faces(&mut file, path);
+    Ok(file)
+}
+
+fn check_not_empty(bytes: &[u8], path: &Path) -> Result<(), LoadError> {
+    if bytes.is_empty() { Err(LoadError::Empty { path: path.into() }) } else { Ok(()) }
+}
+
+fn warn_without_faces(file: &mut MeshFile, path: &Path) {
     if file.triangle_count() == 0 {
         file.warnings.push(format!("{}: there is no face in the file; export the mesh with its faces", path.display()));
     }
-    Ok(file)
 }
 
 /// Loads from bytes, where the loader of the format is built in.

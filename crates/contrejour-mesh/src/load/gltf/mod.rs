@@ -5,15 +5,16 @@ mod buffers;
 mod document;
 mod nodes;
 mod primitive;
+mod rig;
 mod skin;
 
 use std::path::Path;
 
 use glam::DMat4;
-use gltf::Node;
+use gltf::{Document, Node};
 
 use super::{ReadFile, is_finite, read_file};
-use crate::{LoadError, MeshFile, MeshNode, TriangleMesh};
+use crate::{AnimatedModel, LoadError, MeshFile, MeshNode, TriangleMesh};
 
 use accessor::Data;
 use primitive::LeftOut;
@@ -35,6 +36,22 @@ pub fn load_gltf(bytes: &[u8], path: &Path) -> Result<MeshFile, LoadError> {
 
 /// [`load_gltf`] with the buffers beside the file from `read_beside`.
 pub(super) fn load(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<MeshFile, LoadError> {
+    load_with(bytes, path, read_beside, |_, _, _| Ok(())).map(|(file, ())| file)
+}
+
+/// [`load`] with what moves the meshes.
+pub(super) fn load_animated(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<AnimatedModel, LoadError> {
+    let (file, rig) = load_with(bytes, path, read_beside, rig::read_rig)?;
+    Ok(AnimatedModel { file, rig })
+}
+
+/// The meshes, and what `read_more` finds in the same document and data.
+fn load_with<T>(
+    bytes: &[u8],
+    path: &Path,
+    read_beside: &ReadFile,
+    read_more: impl FnOnce(&Document, &Data, &mut MeshFile) -> Result<T, LoadError>,
+) -> Result<(MeshFile, T), LoadError> {
     let parsed = document::parse(bytes, path)?;
     let document = &parsed.document;
     let buffers = buffers::read_buffers(document, parsed.binary_chunk, path, read_beside)?;
@@ -60,7 +77,8 @@ pub(super) fn load(bytes: &[u8], path: &Path, read_beside: &ReadFile) -> Result<
     if document.extensions_used().any(|name| name == instancing) {
         file.warnings.push(format!("{instancing} is not read; each of its nodes stands once"));
     }
-    Ok(file)
+    let more = read_more(document, &loader.data, &mut file)?;
+    Ok((file, more))
 }
 
 struct Loader<'a> {

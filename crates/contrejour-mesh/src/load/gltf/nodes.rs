@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use glam::{DMat4, DQuat, DVec3, Mat4};
+use glam::{DMat4, DVec3, Mat4};
 use gltf::scene::Transform;
 use gltf::{Document, Node};
 
-use crate::LoadError;
+use crate::rig::rotation as rotation_of;
+use crate::{LoadError, NodeTransform};
 
 /// World space from each node's space, at rest, by node index.
 pub(super) fn world_from_nodes(document: &Document, path: &Path) -> Result<Vec<DMat4>, LoadError> {
@@ -21,7 +22,7 @@ pub(super) fn world_from_nodes(document: &Document, path: &Path) -> Result<Vec<D
     let roots = document.nodes().filter(|node| !has_parent[node.index()]);
     let mut stack: Vec<(Node, DMat4)> = roots.map(|root| (root, DMat4::IDENTITY)).collect();
     while let Some((node, world_from_parent)) = stack.pop() {
-        let world = world_from_parent * parent_from_node(&node);
+        let world = world_from_parent * node_transform(&node).matrix();
         if !world.is_finite() {
             return Err(LoadError::Malformed {
                 path: path.into(),
@@ -67,18 +68,15 @@ fn root_nodes(document: &Document) -> Vec<Node<'_>> {
     document.nodes().filter(|node| !has_parent[node.index()]).collect()
 }
 
-fn parent_from_node(node: &Node) -> DMat4 {
+/// How a node stands in its parent, at rest.
+pub(super) fn node_transform(node: &Node) -> NodeTransform {
     match node.transform() {
-        Transform::Matrix { matrix } => Mat4::from_cols_array_2d(&matrix).as_dmat4(),
-        Transform::Decomposed { translation, rotation, scale } => {
-            let rotation = DQuat::from_array(rotation.map(f64::from));
-            let is_rotation = rotation.length_squared() > 0.0;
-            DMat4::from_scale_rotation_translation(
-                DVec3::from(scale.map(f64::from)),
-                if is_rotation { rotation.normalize() } else { DQuat::IDENTITY },
-                DVec3::from(translation.map(f64::from)),
-            )
-        }
+        Transform::Matrix { matrix } => NodeTransform::Matrix(Mat4::from_cols_array_2d(&matrix).as_dmat4()),
+        Transform::Decomposed { translation, rotation, scale } => NodeTransform::Parts {
+            translation: DVec3::from(translation.map(f64::from)),
+            rotation: rotation_of(&rotation.map(f64::from)),
+            scale: DVec3::from(scale.map(f64::from)),
+        },
     }
 }
 
