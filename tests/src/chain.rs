@@ -51,7 +51,7 @@ impl Fault {
         match *self {
             Self::Skipped { .. } => None,
             Self::Replaced { stage, piece, fault } => {
-                let wgsl = stages::ALL[place(stage)].wgsl;
+                let wgsl = wgsl_of(stage);
                 assert_eq!(wgsl.matches(piece).count(), 1, "{stage} says {piece:?} not once");
                 Some(StageRun::new(gpu, &wgsl.replace(piece, fault), stage))
             }
@@ -75,6 +75,18 @@ pub fn check_each_is_found(gpu: &Gpu, faults: &[Fault], check: impl Fn(&Gpu, &St
         }
     }
     Ok(())
+}
+
+/// The text of a stage of a light or of a scene.
+///
+/// # Panics
+///
+/// When no stage has the name.
+pub fn wgsl_of(stage: &str) -> &'static str {
+    let of_scenes = stages::SCENE.iter().map(|known| (known.stage.name(), known.wgsl));
+    let of_lights = stages::ALL.iter().map(|known| (known.stage.name(), known.wgsl));
+    let found = of_scenes.chain(of_lights).find(|&(name, _)| name == stage);
+    found.unwrap_or_else(|| panic!("no stage is named {stage}")).1
 }
 
 fn place(stage: &str) -> usize {

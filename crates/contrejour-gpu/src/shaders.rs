@@ -13,10 +13,11 @@ use crate::{passes, stages};
 /// Every shader module that this crate can create, for tests and tools; a frame creates only those that its plan lists.
 pub fn all() -> impl Iterator<Item = ShaderModule> {
     let compute = stages::ALL.iter().map(|stage| ShaderModule::of(stage.stage.name(), stage.wgsl));
+    let scene = stages::SCENE.iter().map(|stage| ShaderModule::of(stage.stage.name(), stage.wgsl));
     let both = VisibilityKind::examples().flat_map(|kind| ViewChoice::ALL.map(|choice| (kind, choice)));
     let visibility = both.map(|(kind, choice)| ShaderModule {
         name: format!("visibility+{kind:?}+{choice:?}").into(),
         wgsl: pass_wgsl(kind, choice).into(),
     });
-    compute.chain(passes::MODULES.iter().cloned()).chain(visibility)
+    scene.chain(compute).chain(passes::MODULES.iter().cloned()).chain(visibility)
 }

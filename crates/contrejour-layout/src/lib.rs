@@ -78,4 +78,9 @@ pub const SHARED_STRUCTS: &[SharedStruct] = &[
     DrawArgs::SHARED,
     ReceiverView::SHARED,
     EyeView::SHARED,
+    RestVertex::SHARED,
+    Influence::SHARED,
+    MorphDelta::SHARED,
+    JointMatrix::SHARED,
+    DeformBlock::SHARED,
 ];

@@ -22,6 +22,7 @@
 mod build_corners;
 mod caster_position;
 mod classify_faces;
+mod deform_positions;
 mod detect_silhouette;
 mod extrude_edges;
 mod facing;
@@ -45,6 +46,7 @@ mod write_refine_args;
 
 pub use build_corners::BuildCorners;
 pub use classify_faces::ClassifyFaces;
+pub use deform_positions::DeformPositions;
 pub use detect_silhouette::DetectSilhouette;
 pub use extrude_edges::ExtrudeEdges;
 pub use frame::{FrameInputs, FrameOutputs, run_facing, run_frame};

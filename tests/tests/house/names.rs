@@ -1,6 +1,6 @@
 //! A stage has one name, and that name is a file on every side.
 
-use contrejour_plan::Stage;
+use contrejour_plan::{SceneStage, Stage};
 
 use crate::modules::{parse, stems};
 
@@ -16,7 +16,8 @@ fn compare(side: &str, stages: &[String], files: &[String], others: bool) -> Res
 }
 
 fn stages() -> Vec<String> {
-    Stage::ALL.iter().map(|stage| stage.name().to_owned()).collect()
+    let names = SceneStage::ALL.map(SceneStage::name).into_iter().chain(Stage::ALL.map(Stage::name));
+    names.map(str::to_owned).collect()
 }
 
 #[test]
@@ -38,13 +39,16 @@ fn stages_have_the_same_names_on_all_sides() {
 fn the_library_runs_them_in_the_order_of_the_plan() {
     let library: Vec<_> = contrejour_gpu::stages::ALL.iter().map(|stage| stage.stage.name()).collect();
     assert_eq!(library, Stage::ALL.map(Stage::name));
+    let once_a_frame: Vec<_> = contrejour_gpu::stages::SCENE.iter().map(|stage| stage.stage.name()).collect();
+    assert_eq!(once_a_frame, SceneStage::ALL.map(SceneStage::name));
 }
 
 #[test]
 fn every_stage_has_one_entry_point_of_its_name() {
-    for stage in contrejour_gpu::stages::ALL {
-        let name = stage.stage.name();
-        let module = parse(&crate::modules::Module { name: name.into(), wgsl: stage.wgsl.into() });
+    let of_lights = contrejour_gpu::stages::ALL.iter().map(|stage| (stage.stage.name(), stage.wgsl));
+    let of_scenes = contrejour_gpu::stages::SCENE.iter().map(|stage| (stage.stage.name(), stage.wgsl));
+    for (name, wgsl) in of_scenes.chain(of_lights) {
+        let module = parse(&crate::modules::Module { name: name.into(), wgsl: wgsl.into() });
         let entry_points: Vec<_> = module.entry_points.iter().map(|entry_point| entry_point.name.as_str()).collect();
         assert_eq!(entry_points, [name]);
     }
@@ -52,9 +56,9 @@ fn every_stage_has_one_entry_point_of_its_name() {
 
 #[test]
 fn the_comparer_finds_a_missing_file_and_one_too_many() {
-    let all = stages();
-    let without_last = &all[..all.len() - 1];
-    assert!(compare("side", &stages(), without_last, true).is_err_and(|text| text.contains("write_draw_args")));
-    assert!(compare("side", without_last, &stages(), false).is_err_and(|text| text.contains("no stage")));
-    assert_eq!(compare("side", without_last, &stages(), true), Ok(()));
+    let stages = stages();
+    let without_last = &stages[..stages.len() - 1];
+    assert!(compare("side", &stages, without_last, true).is_err_and(|text| text.contains("write_draw_args")));
+    assert!(compare("side", without_last, &stages, false).is_err_and(|text| text.contains("no stage")));
+    assert_eq!(compare("side", without_last, &stages, true), Ok(()));
 }

@@ -2,6 +2,7 @@
 
 mod build_corners;
 mod classify_faces;
+mod deform_positions;
 mod detect_silhouette;
 mod device_errors;
 mod extrude_edges;
@@ -25,6 +26,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let trials = [
         device_errors::trials(),
+        deform_positions::trials(),
         float64::trials(),
         place_casters::trials(),
         list_blocks::trials(),

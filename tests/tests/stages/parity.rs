@@ -1,6 +1,7 @@
 //! The frames that the stages are compared on, and one stage on the device.
 
 use contrejour_plan::{Light, ShadowSettings};
+use contrejour_tests::chain::wgsl_of;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::Outcome;
@@ -87,9 +88,7 @@ fn crowd(meshes: &[TestMesh]) -> TestMesh {
 
 /// The stage of a name as the library runs it.
 pub fn stage(gpu: &Gpu, name: &str) -> StageRun {
-    let stages = &contrejour_gpu::stages::ALL;
-    let stage = stages.iter().find(|stage| stage.stage.name() == name);
-    StageRun::new(gpu, stage.unwrap_or_else(|| panic!("the library has no stage {name}")).wgsl, name)
+    StageRun::new(gpu, wgsl_of(name), name)
 }
 
 /// Runs it on a frame's buffers.

@@ -2,6 +2,7 @@
 
 mod build_corners;
 mod classify_faces;
+mod deform_positions;
 mod detect_silhouette;
 mod extrude_edges;
 mod list_blocks;
@@ -15,7 +16,7 @@ mod write_item_args;
 mod write_recheck_args;
 mod write_refine_args;
 
-use contrejour_plan::{BufferKind, Stage};
+use contrejour_plan::{BufferKind, SceneStage, Stage};
 
 /// What a compute stage runs. It binds [`Stage::buffers`] in their order, from binding 0 on.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +29,15 @@ pub struct ComputeStage {
     pub writes: &'static [BufferKind],
     /// Where its number of workgroups comes from.
     pub dispatch: Dispatch,
+}
+
+/// What a compute stage runs that prepares a scene for all its lights. It binds storage buffers alone.
+#[derive(Clone, Copy, Debug)]
+pub struct SceneComputeStage {
+    /// Which stage this is; its name is the entry point.
+    pub stage: SceneStage,
+    /// The text of its shader module.
+    pub wgsl: &'static str,
 }
 
 /// Where the number of workgroups of a stage comes from.
@@ -43,7 +53,10 @@ pub enum Dispatch {
     Indirect(BufferKind, u32),
 }
 
-/// All stages in the order in which a frame runs them.
+/// The stages that run once a frame, before those of each light.
+pub const SCENE: [SceneComputeStage; 1] = [deform_positions::DEFORM_POSITIONS];
+
+/// All stages of a light in the order in which a frame runs them.
 pub const ALL: [ComputeStage; 14] = [
     place_casters::PLACE_CASTERS,
     list_blocks::LIST_BLOCKS,
