@@ -98,6 +98,6 @@ impl StagePipeline {
 }
 
 /// Folded into two dimensions.
-fn dispatch(pass: &mut wgpu::ComputePass<'_>, groups: u32) {
+pub(crate) fn dispatch(pass: &mut wgpu::ComputePass<'_>, groups: u32) {
     pass.dispatch_workgroups(groups.min(MAX_GROUPS_X), groups.div_ceil(MAX_GROUPS_X), 1);
 }

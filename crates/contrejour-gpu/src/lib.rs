@@ -8,6 +8,7 @@
 
 mod casters;
 mod compute;
+mod deformer;
 mod device_watch;
 mod error;
 mod frame;
@@ -34,6 +35,7 @@ mod wgsl;
 
 pub use casters::{CasterHandle, CasterInput, Positions};
 pub use contrejour_plan::{ViewChoice, VisibilityKind};
+pub use deformer::{AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError};
 pub use error::{
     AddMeshError, CasterError, CountersError, DeviceError, NewShadowsError, PrepareError, ShadowLightError,
 };
