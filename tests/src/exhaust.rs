@@ -82,6 +82,8 @@ struct ExactCaster {
 pub struct OwnPositions {
     /// The buffer.
     pub buffer: wgpu::Buffer,
+    /// Where the first position starts, in bytes.
+    pub offset: u64,
     /// From one position to the next, in bytes.
     pub stride: u64,
     /// What it holds.
@@ -139,8 +141,22 @@ impl<'a> Exhaust<'a> {
     /// What the library refuses.
     pub fn of_moved(gpu: &'a Gpu, part: &TestPart, moved: OwnPositions) -> Result<Self, String> {
         let oracle = OracleTopology::new(&part.topology.positions, &part.triangles).moved(&moved.positions);
+        Self::of_deforming(gpu, &part.topology, &oracle, moved)
+    }
+
+    /// The same for an oracle that knows already where the vertices are.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses.
+    pub fn of_deforming(
+        gpu: &'a Gpu,
+        topology: &Arc<TopologyAwareMesh>,
+        oracle: &OracleTopology,
+        moved: OwnPositions,
+    ) -> Result<Self, String> {
         let mut exhaust = Self::empty(gpu)?;
-        exhaust.add(&part.topology, &oracle, Some(moved))?;
+        exhaust.add(topology, oracle, Some(moved))?;
         Ok(exhaust)
     }
 
@@ -158,8 +174,8 @@ impl<'a> Exhaust<'a> {
         let first_word = self.casters.last().map_or(0, |caster| caster.lit_words.end);
         let words = mesh.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize;
         let handle = self.shadows.add_mesh(Arc::clone(mesh)).map_err(|error| error.to_string())?;
-        let positions = own_positions.map_or(Positions::OfMesh, |OwnPositions { buffer, stride, .. }| {
-            Positions::InBuffer { buffer, offset: 0, stride }
+        let positions = own_positions.map_or(Positions::OfMesh, |OwnPositions { buffer, offset, stride, .. }| {
+            Positions::InBuffer { buffer, offset, stride }
         });
         let caster = CasterInput { mesh: handle, world_from_object: DMat4::IDENTITY, positions };
         self.casters.push(ExactCaster {

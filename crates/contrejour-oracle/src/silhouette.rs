@@ -49,7 +49,19 @@ pub struct OracleTopology {
 impl OracleTopology {
     /// Welds, and finds the faces at every edge and the partner of every face without area.
     pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
-        let faces = weld(positions, triangles);
+        Self::of_welded(positions, weld(positions, &vec![0; positions.len()], triangles))
+    }
+
+    /// The same where only source vertices that also have one number in `classes` are welded: those that move alike.
+    ///
+    /// # Panics
+    ///
+    /// When there are fewer numbers than positions.
+    pub fn of_deforming(positions: &[[f32; 3]], classes: &[u32], triangles: &[[u32; 3]]) -> Self {
+        Self::of_welded(positions, weld(positions, classes, triangles))
+    }
+
+    fn of_welded(positions: &[[f32; 3]], faces: Vec<[u32; 3]>) -> Self {
         let mut edges: BTreeMap<(u32, u32), Vec<(usize, bool)>> = BTreeMap::new();
         for (face, &[a, b, c]) in faces.iter().enumerate() {
             if a == b || b == c || c == a {
@@ -155,9 +167,9 @@ impl OracleTopology {
     }
 }
 
-fn weld(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+fn weld(positions: &[[f32; 3]], classes: &[u32], triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
     // Adding zero turns -0.0 into 0.0 and changes nothing else.
-    let key = |vertex: usize| positions[vertex].map(|coordinate| (coordinate + 0.0).to_bits());
+    let key = |vertex: usize| (positions[vertex].map(|coordinate| (coordinate + 0.0).to_bits()), classes[vertex]);
     let mut lowest = BTreeMap::new();
     for vertex in 0..positions.len() {
         lowest.entry(key(vertex)).or_insert(vertex as u32);

@@ -1,6 +1,7 @@
 //! The promises on the whole library, one file each.
 
 mod closed;
+mod deformed;
 mod device_trouble;
 mod exact;
 mod facing;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         nothing_per_edge::trials(),
         own_positions::trials(),
         many_lights::trials(),
+        deformed::trials(),
         device_trouble::trials(),
         pages::trials(),
         ten_million::trials(),

@@ -108,7 +108,7 @@ fn move_vertices(gpu: &Gpu, skin: &wgpu::ComputePipeline, part: &TestPart, scale
 
     let [_, _, buffer] = buffers;
     let moved: Vec<[f32; 4]> = gpu.read_back(&buffer, rest.len());
-    OwnPositions { buffer, stride: 16, positions: moved.iter().map(|&[x, y, z, _]| [x, y, z]).collect() }
+    OwnPositions { buffer, offset: 0, stride: 16, positions: moved.iter().map(|&[x, y, z, _]| [x, y, z]).collect() }
 }
 
 fn skin_pipeline(gpu: &Gpu) -> wgpu::ComputePipeline {
