@@ -4,6 +4,7 @@
 //! on a floor with a light and a camera. [`Scene::built_in`] has the scenes that come with contrejour.
 //! The format of scene files is described in [`scene_format`]. Y is up, everywhere.
 
+mod animated_scene;
 mod assets;
 mod bounds;
 mod built_in;
@@ -16,6 +17,7 @@ pub mod scene_format;
 pub mod shapes;
 mod toml_text;
 
+pub use animated_scene::{AnimatedScene, AnimatedSceneError, FrameTimes};
 pub use assets::{MESH_ASSETS, MeshAsset};
 pub use bounds::Bounds;
 pub use built_in::{BUILT_IN_SCENES, BuiltInScene};

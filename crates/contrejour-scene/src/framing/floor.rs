@@ -38,6 +38,7 @@ const CIRCLE_POINTS: u32 = 16;
 
 /// The meshes on a floor, lit by a spot from above left.
 pub(super) fn on_a_floor(mut meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
+    let reach = bounds;
     let bounds = with_some_size(bounds);
     let diagonal = bounds.size().length();
     let gap = if bounds.size().y > FLAT_HEIGHT * diagonal { STANDING_GAP } else { FLAT_GAP };
@@ -50,7 +51,7 @@ pub(super) fn on_a_floor(mut meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
     let floor_middle = bounds.center().with_y(floor_y);
     everywhere.extend(circle(floor_middle, floor_radius));
     meshes.push(floor_mesh(floor_middle, floor_radius));
-    let all = meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union);
+    let all = meshes.iter().map(SceneMesh::bounds).fold(reach, Bounds::union);
 
     let size = Scene::DEFAULT_SIZE;
     let aspect = f64::from(size[0]) / f64::from(size[1]);

@@ -17,6 +17,11 @@ const SMALLEST: f64 = 1e-30;
 /// A scene around meshes that bring none.
 pub(crate) fn frame(meshes: Vec<SceneMesh>) -> Scene {
     let bounds = meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union);
+    frame_within(meshes, bounds)
+}
+
+/// The same where the meshes will move within these bounds.
+pub(crate) fn frame_within(meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
     if room::is_room(&meshes, &bounds) {
         room::seen_from_within(meshes, bounds)
     } else {

@@ -1,0 +1,196 @@
+//! A model in motion, set up like a lone mesh.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use contrejour_mesh::{
+    AnimatedModel, Animation, DeformingMesh, LoadError, PartPose, PoseError, TopologyAwareMesh, TopologyError,
+    TriangleMesh, UnknownAnimation, load_animated,
+};
+use glam::DVec3;
+
+use crate::framing::frame_within;
+use crate::scene::placed_meshes;
+use crate::{Bounds, MeshSource, Scene};
+
+/// Times that a scene is fitted to, at most.
+const MOST_FITTED: u32 = 256;
+
+/// A model that an animation moves, on a floor and in a light that fit all of its frames.
+#[derive(Clone, Debug)]
+pub struct AnimatedScene {
+    /// The scene in the first frame. Its first meshes are those of the model.
+    pub scene: Scene,
+    model: AnimatedModel,
+    animation: usize,
+    times: FrameTimes,
+}
+
+/// The times of the frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrameTimes {
+    /// One frame at a time. Unit: seconds.
+    At(f64),
+    /// So many frames, evenly over the animation's length; the first is at 0, and the last one before the end, which is
+    /// the first again where an animation goes round.
+    Even(u32),
+}
+
+impl FrameTimes {
+    /// Time of a frame of an animation of this length, in seconds.
+    pub fn time(self, frame: u32, duration: f64) -> f64 {
+        match self {
+            Self::At(time) => time,
+            Self::Even(frames) => duration * f64::from(frame) / f64::from(frames.max(1)),
+        }
+    }
+
+    fn fitted(self, duration: f64) -> Vec<f64> {
+        match self {
+            Self::At(time) => vec![time],
+            Self::Even(frames) => {
+                let count = frames.min(MOST_FITTED);
+                (0..count).map(|step| Self::Even(count).time(step, duration)).collect()
+            }
+        }
+    }
+}
+
+/// Why a model does not move.
+#[derive(Debug, thiserror::Error)]
+pub enum AnimatedSceneError {
+    /// The file is not loaded.
+    #[error(transparent)]
+    Mesh(#[from] LoadError),
+    /// The file has no such animation.
+    #[error("{}: {source}", path.display())]
+    Unknown {
+        /// The file.
+        path: PathBuf,
+        /// The name, and those that there are.
+        source: UnknownAnimation,
+    },
+    /// A frame has no pose.
+    #[error("{}: {source}", path.display())]
+    Pose {
+        /// The file.
+        path: PathBuf,
+        /// Where it has none.
+        source: PoseError,
+    },
+}
+
+impl AnimatedScene {
+    /// Loads a mesh file and sets up the frames of one of its animations.
+    ///
+    /// # Errors
+    ///
+    /// The file is not loaded, has no animation of the name, or one of its frames has no pose.
+    pub fn open(path: &Path, animation: &str, times: FrameTimes) -> Result<Self, AnimatedSceneError> {
+        let model = load_animated(path)?;
+        let unknown = |source| AnimatedSceneError::Unknown { path: path.into(), source };
+        let duration = model.rig.animation(animation).map_err(unknown)?.duration;
+        let is_named = |known: &Animation| known.name == animation;
+        let animation = model.rig.animations.iter().position(is_named).unwrap_or_default();
+        let poses_at = |time| {
+            let poses = poses(&model, &model.rig.animations[animation], time);
+            poses.map_err(|source| AnimatedSceneError::Pose { path: path.into(), source })
+        };
+
+        let mut bounds = Bounds::EMPTY;
+        for time in times.fitted(duration) {
+            bounds = bounds.union(bounds_of(&model, &poses_at(time)?));
+        }
+        let mut meshes = placed_meshes(model.file.clone(), &MeshSource::File(path.to_owned()));
+        let first_poses = poses_at(times.time(0, duration))?;
+        for ((mesh, pose), part) in meshes.iter_mut().zip(&first_poses).zip(&model.rig.parts) {
+            mesh.world_from_object = pose.world_from_object;
+            if let Some(deforming) = &part.deforming {
+                let positions = deforming.posed(pose).iter().map(|position| position.as_vec3().to_array()).collect();
+                mesh.mesh = Arc::new(TriangleMesh { positions, ..(*mesh.mesh).clone() });
+            }
+        }
+        let scene = Scene { warnings: model.file.warnings.clone(), ..frame_within(meshes, bounds) };
+        Ok(Self { scene, model, animation, times })
+    }
+
+    /// Time of a frame, in seconds.
+    pub fn time(&self, frame: u32) -> f64 {
+        self.times.time(frame, self.animation().duration)
+    }
+
+    /// The animation that moves the model.
+    pub fn animation(&self) -> &Animation {
+        &self.model.rig.animations[self.animation]
+    }
+
+    /// The poses of the scene's first meshes at a time, in seconds.
+    ///
+    /// # Errors
+    ///
+    /// A number overflows.
+    pub fn pose(&self, time: f64) -> Result<Vec<PartPose>, PoseError> {
+        poses(&self.model, self.animation(), time)
+    }
+
+    /// What moves the vertices of a mesh of the scene against each other; none where nothing does.
+    pub fn deforming(&self, mesh: usize) -> Option<&Arc<DeformingMesh>> {
+        self.model.rig.parts.get(mesh)?.deforming.as_ref()
+    }
+
+    /// The mesh of the model that a mesh of the scene is a pose of, at rest.
+    pub fn rest_mesh(&self, mesh: usize) -> Option<&TriangleMesh> {
+        self.model.file.meshes.get(self.model.file.nodes.get(mesh)?.mesh)
+    }
+
+    /// The topology of a mesh that deforms; none of others. It is that of the mesh at rest, whatever the pose.
+    ///
+    /// # Errors
+    ///
+    /// [`TopologyError`].
+    pub fn deforming_topology(&self, mesh: usize) -> Option<Result<TopologyAwareMesh, TopologyError>> {
+        Some(self.deforming(mesh)?.topology(self.rest_mesh(mesh)?))
+    }
+}
+
+fn poses(model: &AnimatedModel, animation: &Animation, time: f64) -> Result<Vec<PartPose>, PoseError> {
+    let rig = &model.rig;
+    let pose = rig.pose(Some(animation), time)?;
+    Ok(rig.parts.iter().map(|part| rig.part_pose(part, &pose)).collect())
+}
+
+/// The box around all meshes of a pose, in world space.
+fn bounds_of(model: &AnimatedModel, poses: &[PartPose]) -> Bounds {
+    let parts = model.rig.parts.iter().zip(&model.file.nodes).zip(poses);
+    let of_part = parts.map(|((part, node), pose)| {
+        let place = |position: DVec3| pose.world_from_object.transform_point3(position);
+        match &part.deforming {
+            Some(deforming) => Bounds::of(deforming.posed(pose).into_iter().map(place)),
+            None => {
+                let positions = &model.file.meshes[node.mesh].positions;
+                Bounds::of(positions.iter().map(|position| place(DVec3::from(position.map(f64::from)))))
+            }
+        }
+    });
+    of_part.fold(Bounds::EMPTY, Bounds::union)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn even_frames_do_not_repeat_the_first() {
+        let times: Vec<_> = (0..4).map(|frame| FrameTimes::Even(4).time(frame, 2.0)).collect();
+        assert_eq!(times, [0.0, 0.5, 1.0, 1.5]);
+        assert_eq!(FrameTimes::At(7.0).time(3, 2.0), 7.0);
+        assert_eq!(FrameTimes::Even(100_000).fitted(2.0).len(), 256);
+    }
+
+    #[test]
+    fn a_file_without_animations_says_so() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/meshes/knot.obj");
+        let error = AnimatedScene::open(&folder, "Walk", FrameTimes::At(0.0)).expect_err("it is an OBJ");
+        assert!(error.to_string().ends_with(r#"knot.obj: there is no animation "Walk"; the file has none"#), "{error}");
+    }
+}
