@@ -5,14 +5,15 @@ use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 use contrejour_gpu::{
-    AddMeshError, CasterError, CasterInput, CountersError, LightHandle, NewShadowsError, Positions, PrepareError,
-    ShadowLightError, ShadowOptions, Shadows,
+    AddMeshError, CasterError, CasterHandle, CasterInput, CountersError, Deformer, LightHandle, NewShadowsError,
+    PrepareError, ShadowLightError, ShadowOptions, Shadows,
 };
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError, TriangleMesh};
 use contrejour_plan::Light;
-use contrejour_scene::Scene;
+use contrejour_scene::{Scene, SceneMesh};
 use glam::DMat4;
 
+use crate::animated::DeformingCaster;
 use crate::{Gpu, LocalSpace};
 
 /// What casts in a scene. Each mesh has one topology, however often it stands there.
@@ -20,6 +21,10 @@ use crate::{Gpu, LocalSpace};
 pub(crate) struct Casters {
     pub topologies: Vec<Arc<TopologyAwareMesh>>,
     pub placed: Vec<Caster>,
+    /// None where no mesh deforms.
+    pub deformer: Option<Deformer>,
+    /// Bytes that poses uploaded and no frame has counted yet.
+    pub pose_bytes: u64,
 }
 
 /// A mesh that throws a shadow.
@@ -30,6 +35,8 @@ pub(crate) struct Caster {
     /// Index of its topology.
     pub mesh: usize,
     pub local_from_object: DMat4,
+    /// What moves its vertices against each other.
+    pub deforming: Option<DeformingCaster>,
 }
 
 /// A mesh that casts has no topology.
@@ -65,6 +72,9 @@ pub enum PrepareShadowsError {
     /// The light is no light.
     #[error(transparent)]
     Light(#[from] ShadowLightError),
+    /// A caster is gone.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
     /// The device does not allow the frame.
     #[error(transparent)]
     Prepare(#[from] PrepareError),
@@ -75,19 +85,31 @@ pub enum PrepareShadowsError {
 pub(crate) struct CastShadows {
     pub shadows: Shadows,
     pub light: LightHandle,
+    handles: Vec<CasterHandle>,
 }
 
 impl Casters {
     /// Builds the topology of each mesh that casts.
     pub fn new(scene: &Scene, local: &LocalSpace) -> Result<Self, CasterTopologyError> {
-        let mut casters = Self { topologies: Vec::new(), placed: Vec::new() };
+        Self::with_topologies(scene, local, |_| None)
+    }
+
+    /// The same with other topologies of some meshes, by their index in the scene.
+    pub fn with_topologies(
+        scene: &Scene,
+        local: &LocalSpace,
+        other_topology: impl Fn(usize) -> Option<Result<TopologyAwareMesh, TopologyError>>,
+    ) -> Result<Self, CasterTopologyError> {
+        let mut casters = Self { topologies: Vec::new(), placed: Vec::new(), deformer: None, pose_bytes: 0 };
         let mut known = HashMap::new();
-        for placed in scene.meshes.iter().filter(|placed| placed.casts && !placed.mesh.triangles.is_empty()) {
+        let casting = |placed: &SceneMesh| placed.casts && !placed.mesh.triangles.is_empty();
+        for (index, placed) in scene.meshes.iter().enumerate().filter(|(_, placed)| casting(placed)) {
             let mesh = match known.entry(Arc::as_ptr(&placed.mesh)) {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(place) => {
                     let TriangleMesh { positions, triangles, .. } = &*placed.mesh;
-                    let topology = TopologyAwareMesh::build(positions, triangles, &BuildOptions::default())
+                    let topology = other_topology(index)
+                        .unwrap_or_else(|| TopologyAwareMesh::build(positions, triangles, &BuildOptions::default()))
                         .map_err(|source| CasterTopologyError { mesh: placed.name.clone(), source })?;
                     casters.topologies.push(Arc::new(topology));
                     *place.insert(casters.topologies.len() - 1)
@@ -97,6 +119,7 @@ impl Casters {
                 name: placed.name.clone(),
                 mesh,
                 local_from_object: local.local_from_world() * placed.world_from_object,
+                deforming: None,
             });
         }
         Ok(casters)
@@ -123,19 +146,28 @@ impl CastShadows {
         let mut shadows = Shadows::new(&gpu.device)?;
         let meshes = casters.topologies.iter().map(|topology| shadows.add_mesh(Arc::clone(topology)));
         let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
-        for caster in &casters.placed {
+        let handles = (casters.placed.iter()).map(|caster| {
             shadows.add_caster(&CasterInput {
                 mesh: meshes[caster.mesh],
                 world_from_object: caster.local_from_object,
-                positions: Positions::OfMesh,
-            })?;
-        }
+                positions: casters.positions(caster),
+            })
+        });
+        let handles = handles.collect::<Result<_, _>>()?;
         let light = shadows.add_light(&gpu.device, light_local, options)?;
-        Ok(Self { shadows, light })
+        Ok(Self { shadows, light, handles })
     }
 
-    /// Prepares a frame with the light like this.
-    pub fn prepare(&mut self, gpu: &Gpu, light_local: &Light) -> Result<(), PrepareShadowsError> {
+    /// Prepares a frame of the casters that it was made with, where they stand now, and with the light like this.
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        casters: &Casters,
+        light_local: &Light,
+    ) -> Result<(), PrepareShadowsError> {
+        for (handle, caster) in self.handles.iter().zip(&casters.placed) {
+            self.shadows.place_caster(*handle, &caster.local_from_object)?;
+        }
         self.shadows.set_light(self.light, light_local)?;
         Ok(self.shadows.prepare(&gpu.device, &gpu.queue)?)
     }

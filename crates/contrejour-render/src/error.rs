@@ -2,6 +2,7 @@
 
 use contrejour_gpu::CountersError;
 
+use crate::animated::AnimationError;
 use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 use crate::gpu::DeviceFault;
 use crate::readback::ReadError;
@@ -30,6 +31,9 @@ pub enum NewRendererError {
     /// The scene's light or the device does not allow its shadow.
     #[error(transparent)]
     Prepare(#[from] PrepareShadowsError),
+    /// The scene does not move.
+    #[error(transparent)]
+    Animation(#[from] AnimationError),
     /// The timestamps cannot be set up.
     #[error("the graphics device's timestamps cannot be used")]
     Timer(#[from] wgpu_profiler::CreationError),

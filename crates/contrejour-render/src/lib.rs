@@ -7,6 +7,7 @@
 //! [`Judge`] holds one scene for many techniques: the points that its picture shows, the visibility that each technique
 //! gives them and what that costs, and the picture that any visibility makes.
 
+mod animated;
 mod casters;
 mod error;
 mod frame_plan;
@@ -19,6 +20,7 @@ mod map_views;
 mod measurements;
 mod picture_pass;
 mod png;
+mod posed_normals;
 mod readback;
 mod renderer;
 mod save;
@@ -31,6 +33,7 @@ mod stage_timer;
 mod targets;
 mod views;
 
+pub use animated::AnimationError;
 pub use casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 pub use error::{DrawError, NewRendererError};
 pub use frame_plan::{FramePlanError, frame_plan};

@@ -57,12 +57,21 @@ impl Renderer {
     ///
     /// [`NewRendererError`] when something does not fit on the device.
     pub fn new(gpu: Gpu, scene: &Scene, options: &ShadowOptions) -> Result<Self, NewRendererError> {
+        Self::with_casters(gpu, scene, options, |_, local| Ok(Casters::new(scene, local)?))
+    }
+
+    pub(crate) fn with_casters(
+        gpu: Gpu,
+        scene: &Scene,
+        options: &ShadowOptions,
+        new_casters: impl FnOnce(&Gpu, &LocalSpace) -> Result<Casters, NewRendererError>,
+    ) -> Result<Self, NewRendererError> {
         check_size(&gpu, scene.size)?;
         let local = LocalSpace::around(&scene.camera);
-        let casters = Casters::new(scene, &local)?;
+        let casters = new_casters(&gpu, &local)?;
         let light_local = local.light(&scene.light);
         let mut cast = CastShadows::new(&gpu, &casters, &light_local, options)?;
-        cast.prepare(&gpu, &light_local)?;
+        cast.prepare(&gpu, &casters, &light_local)?;
         let pass = PicturePass::new(&gpu, &cast);
         let meshes = SceneMeshes::new(&gpu, scene, &local, pass.surface_layout())?;
         let lit_pipeline = pass.pipeline(&gpu, Shading::Lit);
@@ -99,7 +108,7 @@ impl Renderer {
         let clock = ThreadTime::now();
         self.light_local = self.local.light(light);
         self.uniforms = self.uniforms.with_light(&self.light_local);
-        self.cast.prepare(&self.gpu, &self.light_local)?;
+        self.cast.prepare(&self.gpu, &self.casters, &self.light_local)?;
         if !self.pass.fits(&self.cast) {
             // The light gained or lost its size.
             self.pass = PicturePass::new(&self.gpu, &self.cast);
@@ -107,6 +116,9 @@ impl Renderer {
         }
         let uniform_bytes = self.pass.upload(&self.gpu, &self.uniforms);
         let mut encoder = self.encoder();
+        if let Some(deformer) = &self.casters.deformer {
+            deformer.encode(&mut encoder, &mut self.timer);
+        }
         self.cast.shadows.encode(&mut encoder, &mut self.timer);
         let query = self.timer.begin("picture", &mut encoder);
         {
@@ -120,7 +132,8 @@ impl Renderer {
         self.timer.end_frame()?;
         let cpu_ms = 1000.0 * clock.elapsed().as_secs_f64();
 
-        let upload_bytes = uniform_bytes + self.cast.shadows.stats().upload_bytes;
+        let pose_bytes = std::mem::take(&mut self.casters.pose_bytes);
+        let upload_bytes = uniform_bytes + pose_bytes + self.cast.shadows.stats().upload_bytes;
         self.frames.push(CpuCost { cpu_ms, upload_bytes });
         self.timer.collect();
         self.pace(submission)?;

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::mem::size_of;
 use std::sync::Arc;
 
-use contrejour_mesh::TriangleMesh;
+use contrejour_gpu::Positions;
+use contrejour_mesh::{PartPose, TriangleMesh};
 use contrejour_scene::{Scene, SceneMesh};
 use glam::{DMat3, DMat4, DVec3};
 
@@ -16,13 +17,18 @@ pub(crate) struct SceneMeshes {
     buffers: Vec<MeshBuffers>,
     /// For each visible mesh of the scene, its buffers.
     draws: Vec<usize>,
+    /// What is in the buffer of `surfaces`, a record for each visible mesh.
+    surface_records: Vec<Surface>,
+    surface_buffer: wgpu::Buffer,
     surfaces: wgpu::BindGroup,
     surface_stride: u32,
 }
 
 #[derive(Debug)]
 struct MeshBuffers {
-    vertices: wgpu::Buffer,
+    /// Positions, and where the first one lies, in bytes.
+    positions: (wgpu::Buffer, u64),
+    attributes: wgpu::Buffer,
     indices: wgpu::Buffer,
     index_count: u32,
     /// The mesh's object space from the space of its vertex buffer.
@@ -31,15 +37,14 @@ struct MeshBuffers {
 
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct ShadeVertex {
-    position: [f32; 3],
+struct VertexAttributes {
     normal: [f32; 3],
     color: [f32; 3],
 }
 
 /// `Surface` in `shaders/shared/surface.wgsl`.
 #[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Surface {
     local_from_vertex: [f32; 16],
     local_normal_from_object: [[f32; 4]; 3],
@@ -49,12 +54,29 @@ pub(crate) struct Surface {
     padding: [u32; 2],
 }
 
-/// The vertex buffer, as the shader sees it.
-pub(crate) const VERTEX_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
-    array_stride: size_of::<ShadeVertex>() as u64,
-    step_mode: wgpu::VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3],
-};
+/// The vertex buffers, as the shader sees them: positions alone, which a compute stage may have written, then the others.
+pub(crate) const VERTEX_LAYOUTS: [wgpu::VertexBufferLayout<'static>; 2] = [
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<[f32; 3]>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+    },
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<VertexAttributes>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x3],
+    },
+];
+
+/// A mesh in motion.
+pub(crate) struct PosedDraw<'a> {
+    /// The mesh of the scene.
+    pub placed: &'a SceneMesh,
+    pub pose: &'a PartPose,
+    pub local: &'a LocalSpace,
+    /// Where the positions of a mesh that deforms are, in object space, and its normals.
+    pub deformed: Option<(Positions<'a>, Vec<[f32; 3]>)>,
+}
 
 /// A mesh has more triangles or vertices than the device's buffers hold.
 #[derive(Debug, thiserror::Error)]
@@ -99,6 +121,7 @@ impl SceneMeshes {
         let mut buffers_of_mesh = HashMap::new();
         let mut draws = Vec::new();
         let mut surface_bytes = Vec::new();
+        let mut surface_records = Vec::new();
         let mut first_face = 0u32;
         let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment as usize;
         let surface_stride = size_of::<Surface>().next_multiple_of(alignment);
@@ -114,6 +137,7 @@ impl SceneMeshes {
             let surface = Surface::new(placed, local, &buffers[index].object_from_vertex, first_face);
             // Whoever asks for face ids checks beforehand that they fit.
             first_face = first_face.saturating_add(placed.mesh.triangles.len() as u32);
+            surface_records.push(surface);
             surface_bytes.extend_from_slice(bytemuck::bytes_of(&surface));
             surface_bytes.resize(surface_bytes.len().next_multiple_of(surface_stride), 0);
             draws.push(index);
@@ -134,7 +158,28 @@ impl SceneMeshes {
                 }),
             }],
         });
-        Ok(Self { buffers, draws, surfaces, surface_stride: surface_stride as u32 })
+        let surface_stride = surface_stride as u32;
+        Ok(Self { buffers, draws, surface_records, surface_buffer, surfaces, surface_stride })
+    }
+
+    /// Moves a visible mesh, counted from the scene's first, and returns the bytes that it uploads. Its buffers must be its
+    /// own.
+    pub fn pose(&mut self, gpu: &Gpu, draw: usize, posed: &PosedDraw<'_>) -> u64 {
+        let mut bytes = size_of::<Surface>();
+        let buffers = &mut self.buffers[self.draws[draw]];
+        if let Some((Positions::InBuffer { buffer, offset, .. }, normals)) = &posed.deformed {
+            buffers.positions = ((*buffer).clone(), *offset);
+            buffers.object_from_vertex = DMat4::IDENTITY;
+            let attributes = attributes(normals, &posed.placed.mesh.colors);
+            gpu.queue.write_buffer(&buffers.attributes, 0, bytemuck::cast_slice(&attributes));
+            bytes += size_of_val(&attributes[..]);
+        }
+        let placed = SceneMesh { world_from_object: posed.pose.world_from_object, ..posed.placed.clone() };
+        let surface = &mut self.surface_records[draw];
+        *surface = Surface::new(&placed, posed.local, &buffers.object_from_vertex, surface.first_face);
+        let offset = draw as u64 * u64::from(self.surface_stride);
+        gpu.queue.write_buffer(&self.surface_buffer, offset, bytemuck::bytes_of(surface));
+        bytes as u64
     }
 
     /// Draws everything; the surfaces go to bind group `surface_group`.
@@ -142,7 +187,8 @@ impl SceneMeshes {
         for (surface, &index) in (0u32..).zip(&self.draws) {
             let buffers = &self.buffers[index];
             pass.set_bind_group(surface_group, &self.surfaces, &[surface * self.surface_stride]);
-            pass.set_vertex_buffer(0, buffers.vertices.slice(..));
+            pass.set_vertex_buffer(0, buffers.positions.0.slice(buffers.positions.1..));
+            pass.set_vertex_buffer(1, buffers.attributes.slice(..));
             pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..buffers.index_count, 0, 0..1);
         }
@@ -151,7 +197,7 @@ impl SceneMeshes {
 
 impl MeshBuffers {
     fn new(gpu: &Gpu, mesh: &TriangleMesh, name: &str) -> Result<Self, MeshTooLarge> {
-        let vertex_bytes = (mesh.positions.len() * size_of::<ShadeVertex>()) as u64;
+        let vertex_bytes = (mesh.positions.len() * size_of::<VertexAttributes>()) as u64;
         let bytes = vertex_bytes.max((mesh.triangles.len() * size_of::<[u32; 3]>()) as u64);
         let limit = gpu.device.limits().max_buffer_size;
         if bytes > limit {
@@ -159,19 +205,25 @@ impl MeshBuffers {
         }
 
         let (center, object_per_vertex) = extent(mesh);
-        let vertices: Vec<ShadeVertex> = (mesh.positions.iter().zip(&mesh.normals).zip(&mesh.colors))
-            .map(|((&position, &normal), &color)| {
-                let position = (DVec3::from(position.map(f64::from)) - center) / object_per_vertex;
-                ShadeVertex { position: position.as_vec3().to_array(), normal, color }
-            })
-            .collect();
+        let near_one = |position: &[f32; 3]| {
+            let position = (DVec3::from(position.map(f64::from)) - center) / object_per_vertex;
+            position.as_vec3().to_array()
+        };
+        let positions: Vec<[f32; 3]> = mesh.positions.iter().map(near_one).collect();
+        let attributes = attributes(&mesh.normals, &mesh.colors);
+        let upload = |name, bytes| gpu.upload(name, bytes, wgpu::BufferUsages::VERTEX);
         Ok(Self {
-            vertices: gpu.upload("vertices", bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
+            positions: (upload("positions", bytemuck::cast_slice(&positions)), 0),
+            attributes: upload("vertex attributes", bytemuck::cast_slice(&attributes)),
             indices: gpu.upload("indices", bytemuck::cast_slice(&mesh.triangles), wgpu::BufferUsages::INDEX),
             index_count: 3 * mesh.triangles.len() as u32,
             object_from_vertex: DMat4::from_translation(center) * DMat4::from_scale(DVec3::splat(object_per_vertex)),
         })
     }
+}
+
+fn attributes(normals: &[[f32; 3]], colors: &[[f32; 3]]) -> Vec<VertexAttributes> {
+    normals.iter().zip(colors).map(|(&normal, &color)| VertexAttributes { normal, color }).collect()
 }
 
 /// Middle of a mesh and the power of two next above its half size, so that its vertices lie in -1..1 and lose nothing

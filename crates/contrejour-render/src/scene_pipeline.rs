@@ -1,7 +1,7 @@
 //! Pipelines that draw the scene's meshes.
 
 use crate::Gpu;
-use crate::scene_meshes::VERTEX_LAYOUT;
+use crate::scene_meshes::VERTEX_LAYOUTS;
 use crate::targets::DEPTH_FORMAT;
 
 /// Bind groups of the modules that draw the scene's meshes.
@@ -32,7 +32,7 @@ pub(crate) fn scene_pipeline(
             module,
             entry_point: Some(entry_points.vertex),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[Some(VERTEX_LAYOUT)],
+            buffers: &VERTEX_LAYOUTS.map(Some),
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: Some(depth_state(wgpu::CompareFunction::GreaterEqual, true)),

@@ -98,7 +98,10 @@ fn line(casters: &Casters, silhouette: &SilhouetteEdge) -> Option<Line> {
     let topology = casters.topology(caster);
     let edge = topology.edges.get(silhouette.edge_id as usize)?;
     let end_local = |vertex: u32| {
-        let position = DVec3::from(topology.positions[vertex as usize].map(f64::from));
+        let position = match &caster.deforming {
+            Some(deforming) => deforming.posed[vertex as usize],
+            None => DVec3::from(topology.positions[vertex as usize].map(f64::from)),
+        };
         caster.local_from_object.transform_point3(position).as_vec3().to_array()
     };
     let is_outline = silhouette.left == 0 || silhouette.right == 0;

@@ -55,7 +55,7 @@ impl Contestant {
         let options = ShadowOptions { settings: *settings, outputs: Outputs::Maps, ..ShadowOptions::default() };
         let light_local = local.light(light);
         let mut cast = CastShadows::new(gpu, casters, &light_local, &options)?;
-        cast.prepare(gpu, &light_local)?;
+        cast.prepare(gpu, casters, &light_local)?;
         let pass = VisibilityPass::new(gpu, &cast, receivers);
         let usage = wgpu::TextureUsages::COPY_SRC;
         let target = target_texture(gpu, "judged visibility", receivers.size(), 1, VISIBILITY_FORMAT, usage);
@@ -84,9 +84,9 @@ impl Contestant {
     }
 
     fn draw_once(&mut self, light_local: &Light) -> Result<FrameCost, DrawError> {
-        let JudgedScene { gpu, receivers, .. } = &*self.scene;
+        let JudgedScene { gpu, casters, receivers, .. } = &*self.scene;
         let cpu_clock = ThreadTime::now();
-        self.cast.prepare(gpu, light_local)?;
+        self.cast.prepare(gpu, casters, light_local)?;
         if !self.pass.fits(&self.cast) {
             // The light gained or lost its size.
             self.pass = VisibilityPass::new(gpu, &self.cast, receivers);

@@ -1,0 +1,157 @@
+//! Scenes in motion: their poses on the device.
+
+use std::sync::Arc;
+
+use contrejour_gpu::{
+    AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError, Positions, ShadowOptions,
+};
+use contrejour_mesh::{DeformingMesh, PartPose, PoseError};
+use contrejour_scene::AnimatedScene;
+use glam::DVec3;
+
+use crate::casters::{CasterTopologyError, Casters};
+use crate::error::NewRendererError;
+use crate::gpu::Gpu;
+use crate::local_space::LocalSpace;
+use crate::posed_normals::PosedNormals;
+use crate::renderer::Renderer;
+use crate::scene_meshes::PosedDraw;
+
+/// Why a scene does not move.
+#[derive(Debug, thiserror::Error)]
+pub enum AnimationError {
+    /// The device does not allow deforming meshes.
+    #[error(transparent)]
+    New(#[from] NewDeformerError),
+    /// The deforming meshes do not fit on the device.
+    #[error(transparent)]
+    Add(#[from] AddDeformingError),
+    /// A frame has no pose.
+    #[error(transparent)]
+    Pose(#[from] PoseError),
+    /// The pose does not fit, or the device fails.
+    #[error(transparent)]
+    Deform(#[from] DeformError),
+}
+
+/// A caster whose vertices move against each other.
+#[derive(Debug)]
+pub(crate) struct DeformingCaster {
+    handle: DeformHandle,
+    mesh: Arc<DeformingMesh>,
+    triangles: Vec<[u32; 3]>,
+    normals: PosedNormals,
+    /// Where the vertices are, for what the CPU draws.
+    pub posed: Vec<DVec3>,
+}
+
+impl Renderer {
+    /// Uploads a scene in motion, in its first frame.
+    ///
+    /// # Errors
+    ///
+    /// [`NewRendererError`] when something does not fit on the device.
+    pub fn new_animated(gpu: Gpu, animated: &AnimatedScene, options: &ShadowOptions) -> Result<Self, NewRendererError> {
+        let new_casters = |gpu: &Gpu, local: &LocalSpace| -> Result<Casters, NewRendererError> {
+            let mut casters = animated_casters(animated, local)?;
+            casters.add_deforming(gpu, animated)?;
+            casters.pose(gpu, animated, &animated.pose(animated.time(0)).map_err(AnimationError::from)?, local)?;
+            Ok(casters)
+        };
+        let mut renderer = Self::with_casters(gpu, &animated.scene, options, new_casters)?;
+        renderer.pose(animated, animated.time(0))?;
+        Ok(renderer)
+    }
+
+    /// Poses a scene in motion for the frames that follow; `time` is in seconds. Joint matrices and weights go to the
+    /// device, and, for shading alone, normals.
+    ///
+    /// # Errors
+    ///
+    /// [`AnimationError`] when a number overflows or the device fails.
+    pub fn pose(&mut self, animated: &AnimatedScene, time: f64) -> Result<(), AnimationError> {
+        let poses = animated.pose(time)?;
+        self.casters.pose(&self.gpu, animated, &poses, &self.local)?;
+        let mut bytes = 0;
+        for ((index, pose), draw) in moving(animated, &poses).zip(0..) {
+            let caster = &self.casters.placed[draw];
+            let deformed = caster.deforming.as_ref().map(|deforming| {
+                let normals = deforming.normals.at(&deforming.posed, &deforming.triangles);
+                (self.casters.positions(caster), normals)
+            });
+            let placed = &animated.scene.meshes[index];
+            let posed = PosedDraw { placed, pose, local: &self.local, deformed };
+            bytes += self.meshes.pose(&self.gpu, draw, &posed);
+        }
+        self.casters.pose_bytes += bytes;
+        Ok(())
+    }
+}
+
+/// The meshes of the model that are drawn and cast: the first of each list, without those that have no triangle.
+fn moving<'a>(
+    animated: &'a AnimatedScene,
+    poses: &'a [PartPose],
+) -> impl Iterator<Item = (usize, &'a PartPose)> + use<'a> {
+    poses.iter().enumerate().filter(|&(index, _)| !animated.scene.meshes[index].mesh.triangles.is_empty())
+}
+
+fn animated_casters(animated: &AnimatedScene, local: &LocalSpace) -> Result<Casters, CasterTopologyError> {
+    Casters::with_topologies(&animated.scene, local, |index| animated.deforming_topology(index))
+}
+
+impl Casters {
+    /// Gives the deforming meshes of a model to a deformer, where there are any.
+    fn add_deforming(&mut self, gpu: &Gpu, animated: &AnimatedScene) -> Result<(), AnimationError> {
+        let with_triangles = |&index: &usize| !animated.scene.meshes[index].mesh.triangles.is_empty();
+        let indices = (0..animated.scene.meshes.len()).filter(with_triangles);
+        for (index, caster) in indices.zip(&mut self.placed) {
+            let (Some(mesh), Some(rest)) = (animated.deforming(index), animated.rest_mesh(index)) else { continue };
+            let deformer = match &mut self.deformer {
+                Some(deformer) => deformer,
+                none => none.insert(Deformer::new(&gpu.device)?),
+            };
+            caster.deforming = Some(DeformingCaster {
+                handle: deformer.add(Arc::clone(mesh))?,
+                mesh: Arc::clone(mesh),
+                triangles: rest.triangles.clone(),
+                normals: PosedNormals::new(rest),
+                posed: Vec::new(),
+            });
+        }
+        Ok(())
+    }
+
+    /// Moves what moves.
+    fn pose(
+        &mut self,
+        gpu: &Gpu,
+        animated: &AnimatedScene,
+        poses: &[PartPose],
+        local: &LocalSpace,
+    ) -> Result<(), AnimationError> {
+        let mut inputs = Vec::new();
+        for ((_, pose), caster) in moving(animated, poses).zip(&mut self.placed) {
+            caster.local_from_object = local.local_from_world() * pose.world_from_object;
+            if let Some(deforming) = &mut caster.deforming {
+                deforming.posed = deforming.mesh.posed(pose);
+                inputs.push(DeformInput {
+                    caster: deforming.handle,
+                    joint_matrices: &pose.joint_matrices,
+                    morph_weights: &pose.morph_weights,
+                });
+            }
+        }
+        if let Some(deformer) = &mut self.deformer {
+            deformer.prepare(&gpu.device, &gpu.queue, &inputs)?;
+            self.pose_bytes += deformer.upload_bytes();
+        }
+        Ok(())
+    }
+
+    /// Where the positions of a caster are.
+    pub fn positions(&self, caster: &crate::casters::Caster) -> Positions<'_> {
+        let deformed = caster.deforming.as_ref().zip(self.deformer.as_ref());
+        deformed.and_then(|(deforming, deformer)| deformer.positions(deforming.handle)).unwrap_or_default()
+    }
+}
