@@ -6,7 +6,7 @@ use crate::report_args::ReportArguments;
 use crate::shadow_args::ShadowArguments;
 use crate::stability_args::StabilityArguments;
 use crate::stress_args::StressArguments;
-use crate::values::{parse_size, parse_vector};
+use crate::values::{parse_seconds, parse_size, parse_vector};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Soft shadows whose silhouettes the GPU finds, for any triangle mesh.
@@ -47,7 +47,8 @@ pub struct RenderArguments {
     /// scene]
     pub scene: Option<String>,
 
-    /// Where the picture goes [default: contrejour.png]; with --orbit a name such as frame-%03d.png. Folders are made
+    /// Where the picture goes [default: contrejour.png]; with --orbit or --animate a name such as
+    /// frame-%03d.png. Folders are made
     /// where they are missing
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -63,6 +64,24 @@ pub struct RenderArguments {
     /// Move the light around the scene in N frames, at most 100000; without --output no picture is read back
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_FRAMES))]
     pub orbit: Option<u32>,
+
+    /// Pose a glTF model as its animation of this name does; one without a name has its number in the file, from 0
+    #[arg(long, value_name = "NAME", requires = "scene")]
+    pub animation: Option<String>,
+
+    /// Time of the pose; beyond the animation's end it stays as it ends [default: 0]
+    #[arg(long, value_name = "SECONDS", requires = "animation", value_parser = parse_seconds, allow_hyphen_values = true)]
+    pub time: Option<f64>,
+
+    /// Play the whole animation in N frames at even times, at most 100000; without --output no picture is read back
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "animation",
+        conflicts_with_all = ["orbit", "time"],
+        value_parser = clap::value_parser!(u32).range(1..=MAX_FRAMES)
+    )]
+    pub animate: Option<u32>,
 
     /// Pixels of the picture [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
@@ -183,6 +202,14 @@ mod tests {
             "contrejour",
             "contrejour render --orbit 0",
             "contrejour render --orbit 100001",
+            "contrejour render --animation Walk",
+            "contrejour render fox.glb --time 1",
+            "contrejour render fox.glb --animate 3",
+            "contrejour render fox.glb --animation Walk --animate 0",
+            "contrejour render fox.glb --animation Walk --animate 3 --time 1",
+            "contrejour render fox.glb --animation Walk --animate 3 --orbit 3",
+            "contrejour render fox.glb --animation Walk --time nan",
+            "contrejour render fox.glb --animation Walk --time -1",
             "contrejour render --map-size 0",
             "contrejour render --size 0x100",
             "contrejour render --technique magic",

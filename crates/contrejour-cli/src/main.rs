@@ -1,5 +1,6 @@
 //! The binary `contrejour`: render, silhouette, inspect, plan and report from a shell.
 
+mod animation;
 mod args;
 mod failure;
 mod frame_names;

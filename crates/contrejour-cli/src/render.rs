@@ -6,15 +6,14 @@ use std::path::{Path, PathBuf};
 use contrejour_gpu::ShadowOptions;
 use contrejour_plan::{Light, Outputs};
 use contrejour_render::{Gpu, Renderer, save_png};
-use contrejour_scene::{Scene, orbit};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::animation::{Drawn, Sequence};
 use crate::args::RenderArguments;
 use crate::failure::Failure;
 use crate::frame_names::FrameNames;
 use crate::output::{print, warn};
 use crate::render_json::{json, summary};
-use crate::scenes;
 
 /// The picture's name where none is given.
 const DEFAULT_OUTPUT: &str = "contrejour.png";
@@ -38,34 +37,43 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     if let Some(path) = arguments.output.as_deref().filter(|path| !is_png(path)) {
         return Err(Box::new(NotPng { path: path.into() }));
     }
-    let frame_names = match (&arguments.output, arguments.orbit) {
+    let sequence = Sequence::of(arguments);
+    let frame_names = match (&arguments.output, sequence.frames()) {
         (Some(output), Some(_)) => Some(FrameNames::parse(output)?),
         _ => None,
     };
-    let mut scene = scenes::open(arguments.scene.as_deref())?;
-    scene.warnings.iter().for_each(|warning| warn(warning));
+    let mut drawn = Drawn::open(arguments)?;
+    drawn.scene().warnings.iter().for_each(|warning| warn(warning));
     if let Some(size) = arguments.size {
-        scene.resize(size);
+        drawn.scene_mut().resize(size);
     }
+    let scene = drawn.scene();
     let options = ShadowOptions {
         settings: arguments.shadow.applied_to(scene.shadow)?,
         outputs: Outputs::Maps,
         ..ShadowOptions::default()
     };
-    let mut renderer = Renderer::new(Gpu::open()?, &scene, &options)?;
+    let mut renderer = drawn.renderer(Gpu::open()?, &options)?;
 
     let mut written = Written::default();
-    match arguments.orbit {
+    match sequence.frames() {
         None => {
             let output = arguments.output.clone().unwrap_or_else(|| DEFAULT_OUTPUT.into());
             renderer.draw_complete(&scene.light)?;
             save_png(&renderer.picture()?, &output)?;
             written.pictures.push(output);
         }
-        Some(frames) => draw_orbit(&mut renderer, &scene, frames, frame_names.as_ref(), &mut written)?,
+        Some(frames) => {
+            let move_all = |renderer: &mut Renderer, frame| {
+                drawn.pose(renderer, sequence, frame)?;
+                Ok(sequence.light(scene, frame))
+            };
+            draw_frames(&mut renderer, frames, move_all, frame_names.as_ref(), &mut written)?;
+        }
     }
     if let Some(folder) = &arguments.views {
-        write_views(&mut renderer, &last_light(&scene, arguments.orbit), folder, &mut written)?;
+        let last_light = sequence.light(scene, sequence.frames().map_or(0, |frames| frames - 1));
+        write_views(&mut renderer, &last_light, folder, &mut written)?;
     }
     let measurements = renderer.measurements()?;
     print(&if arguments.json { json(&measurements, &written)? } else { summary(&measurements, &written) })
@@ -75,17 +83,18 @@ fn is_png(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
 }
 
-/// Every frame of an orbit. Without names nothing is read back, and no frame is repeated.
-fn draw_orbit(
+/// Every frame of a sequence; `move_all` poses the model and gives the light. Without names nothing is read back, and no
+/// frame is repeated.
+fn draw_frames(
     renderer: &mut Renderer,
-    scene: &Scene,
     frames: u32,
+    move_all: impl Fn(&mut Renderer, u32) -> Result<Light, Failure>,
     names: Option<&FrameNames>,
     written: &mut Written,
 ) -> Result<(), Failure> {
     let bar = if std::io::stderr().is_terminal() { progress_bar(frames) } else { ProgressBar::hidden() };
     for frame in 0..frames {
-        let light = orbit(&scene.light, frame, frames);
+        let light = move_all(renderer, frame)?;
         match names {
             Some(names) => {
                 renderer.draw_complete(&light)?;
@@ -109,12 +118,8 @@ fn progress_bar(frames: u32) -> ProgressBar {
     }
 }
 
-fn last_light(scene: &Scene, frames: Option<u32>) -> Light {
-    frames.map_or(scene.light, |frames| orbit(&scene.light, frames - 1, frames))
-}
-
 fn write_views(renderer: &mut Renderer, light: &Light, folder: &Path, written: &mut Written) -> Result<(), Failure> {
-    // A frame of an orbit that was not read back may miss something.
+    // A frame of a sequence that was not read back may miss something.
     if written.pictures.is_empty() {
         renderer.draw_complete(light)?;
     }

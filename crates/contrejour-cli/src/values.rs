@@ -16,6 +16,16 @@ fn parse_finite(text: &str) -> Result<f32, String> {
     if number.is_finite() { Ok(number) } else { Err(format!("{text:?} is no finite 32-bit number")) }
 }
 
+/// A time from 0 on, in seconds.
+pub fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.trim().parse().map_err(|_| format!("{text:?} is no number"))?;
+    if seconds.is_finite() && seconds >= 0.0 {
+        Ok(seconds)
+    } else {
+        Err("give seconds from 0 on, as in 1.5".to_owned())
+    }
+}
+
 /// `WxH` in pixels.
 pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=Scene::MAX_SIDE).contains(side));
@@ -77,6 +87,14 @@ mod tests {
         assert_eq!(parse_size("1280x720"), Ok([1280, 720]));
         for text in ["1280", "x720", "0x1", "1x0", "-1x2", "99999x1", "1x2x3"] {
             assert!(parse_size(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn seconds() {
+        assert_eq!(parse_seconds("1.5"), Ok(1.5));
+        for text in ["-1", "nan", "inf", "", "1s"] {
+            assert!(parse_seconds(text).is_err(), "{text}");
         }
     }
 

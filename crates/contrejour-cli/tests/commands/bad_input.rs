@@ -40,7 +40,12 @@ const FILES: [(&str, &str); 13] = [
 ];
 
 /// Arguments, and what the line must tell.
-const CASES: [(&str, &[&str]); 34] = [
+const CASES: [(&str, &[&str]); 39] = [
+    ("render face.obj --animation Walk -o out.png", &["face.obj", "Walk", "has none"]),
+    ("render boxes --animation Walk -o out.png", &["boxes", ".gltf"]),
+    ("render face.obj --animation Walk --time -1 -o out.png", &["--time", "-1"]),
+    ("render face.obj --animation Walk --animate 3 -o out.png", &["out.png", "%03d"]),
+    ("render face.obj --animate 3 -o out-%d.png", &["--animation"]),
     ("silhouette missing.obj --point 1,2,3 -o out.json", &["missing.obj"]),
     ("silhouette folder.obj --point 1,2,3 -o out.json", &["folder.obj", "directory"]),
     ("silhouette range.obj --point 1,2,3 -o out.json", &["range.obj", "line 4", "9"]),

@@ -31,6 +31,7 @@ pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("render::a_picture_has_the_size_asked_for", a_picture_has_the_size_asked_for),
         gpu_trial("render::an_orbit_is_a_picture_a_frame", an_orbit_is_a_picture_a_frame),
+        gpu_trial("render::an_animation_is_a_picture_a_frame", an_animation_is_a_picture_a_frame),
         gpu_trial("render::the_object_has_its_keys", the_object_has_its_keys),
         gpu_trial("render::views_are_pictures", views_are_pictures),
         gpu_trial("render::every_technique_shows_its_maps", every_technique_shows_its_maps),
@@ -68,6 +69,57 @@ fn an_orbit_is_a_picture_a_frame() -> Outcome {
     }
     let bytes: BTreeSet<_> = names.iter().map(|name| std::fs::read(folder.path(name)).unwrap_or_default()).collect();
     if bytes.len() == names.len() { Ok(()) } else { Err("the light does not move".into()) }
+}
+
+/// A face that a morph target of weight 0 to 1 widens within two seconds.
+fn widening_face() -> String {
+    let numbers: [f32; 22] = [
+        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, // positions
+        0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, // how far they move
+        0.0, 2.0, // seconds
+        0.0, 1.0, // weights
+    ];
+    let bytes: String =
+        numbers.iter().flat_map(|number| number.to_le_bytes()).map(|byte| format!("%{byte:02X}")).collect();
+    serde_json::json!({
+        "asset": { "version": "2.0" },
+        "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "targets": [{ "POSITION": 1 }] }] }],
+        "animations": [{
+            "name": "widen",
+            "samplers": [{ "input": 2, "output": 3 }],
+            "channels": [{ "sampler": 0, "target": { "node": 0, "path": "weights" } }],
+        }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3 },
+            { "bufferView": 0, "byteOffset": 36, "componentType": 5126, "type": "VEC3", "count": 3 },
+            { "bufferView": 0, "byteOffset": 72, "componentType": 5126, "type": "SCALAR", "count": 2 },
+            { "bufferView": 0, "byteOffset": 80, "componentType": 5126, "type": "SCALAR", "count": 2 },
+        ],
+        "bufferViews": [{ "buffer": 0, "byteLength": 88 }],
+        "buffers": [{ "byteLength": 88, "uri": format!("data:application/octet-stream,{bytes}") }],
+    })
+    .to_string()
+}
+
+fn an_animation_is_a_picture_a_frame() -> Outcome {
+    let folder = Folder::with(&[("face.gltf", &widening_face())]);
+    let render = "render face.gltf --animation widen --size 64x40 --map-size 128";
+    folder.run(&format!("{render} --animate 3 -o frame-%d.png")).stdout()?;
+    folder.run(&format!("{render} --time 1 -o still.png --views maps")).stdout()?;
+    folder.run(&format!("{render} --time 99 --orbit 2 -o orbit-%d.png")).stdout()?;
+    let names = ["frame-0.png", "frame-1.png", "frame-2.png", "still.png", "orbit-0.png", "orbit-1.png"];
+    let mut pictures = BTreeSet::new();
+    for name in names {
+        expect_size(&folder, name, [64, 40])?;
+        pictures.insert(std::fs::read(folder.path(name)).unwrap_or_default());
+    }
+    let report = folder.run(&format!("{render} --animate 3 --json")).json()?;
+    let is_timed = |stage: &Value| stage["name"] == "deform_positions";
+    if !report["stages"].as_array().is_some_and(|stages| stages.is_empty() || stages.iter().any(is_timed)) {
+        return Err(format!("the stage that deforms is not timed: {report}"));
+    }
+    if pictures.len() == names.len() { Ok(()) } else { Err("the model does not move".into()) }
 }
 
 fn the_object_has_its_keys() -> Outcome {
