@@ -12,6 +12,7 @@ fn main() -> io::Result<()> {
     write(&folder, "gltf/beside.gltf", gltf.replace("BUFFER", "beside.bin").as_bytes())?;
     let skinned = skinned_gltf();
     write(&folder, "gltf/skinned.glb", &glb(&skinned, &skinned_buffer()))?;
+    write(&folder, "gltf/animated.glb", &glb(&animated_gltf(), &animated_buffer()))?;
     for (name, encoding) in [("little", "binary_little_endian"), ("big", "binary_big_endian")] {
         write(&folder, &format!("ply/{name}.ply"), &binary_ply(encoding))?;
     }
@@ -85,6 +86,34 @@ fn skinned_gltf() -> String {
         r#""buffers":[{"byteLength":124}]}"#,
     ]
     .concat()
+}
+
+/// That of the skinned file, then two times, two weights and two translations.
+fn animated_buffer() -> Vec<u8> {
+    let mut buffer = skinned_buffer();
+    buffer.extend(f32_bytes(&[0.5, 2.0, 0.0, 1.0, 5.0, 0.0, 0.0, 5.0, 1.0, 0.0]));
+    buffer
+}
+
+/// The skinned file with an animation of its weights and of its joint.
+fn animated_gltf() -> String {
+    let skinned = skinned_gltf();
+    let skinned = skinned.replace(r#""matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1]"#, r#""translation":[5,0,0]"#);
+    let skinned =
+        skinned.replace(r#""byteLength":64}]"#, r#""byteLength":64},{"buffer":0,"byteOffset":124,"byteLength":40}]"#);
+    let skinned = skinned.replace(r#""values":{"bufferView":0}}}]"#, r#""values":{"bufferView":0}}},ACCESSORS]"#);
+    let accessors = [
+        r#"{"bufferView":4,"componentType":5126,"type":"SCALAR","count":2},"#,
+        r#"{"bufferView":4,"byteOffset":8,"componentType":5126,"type":"SCALAR","count":2},"#,
+        r#"{"bufferView":4,"byteOffset":16,"componentType":5126,"type":"VEC3","count":2}"#,
+    ];
+    let animations = [
+        r#""animations":[{"name":"a","samplers":[{"input":5,"output":6},{"input":5,"output":7,"interpolation":"STEP"}],"#,
+        r#""channels":[{"sampler":0,"target":{"node":0,"path":"weights"}},"#,
+        r#"{"sampler":1,"target":{"node":1,"path":"translation"}}]}],"buffers":[{"byteLength":164}]"#,
+    ];
+    let skinned = skinned.replace("ACCESSORS", &accessors.concat());
+    skinned.replace(r#""buffers":[{"byteLength":124}]"#, &animations.concat())
 }
 
 fn data_uri(bytes: &[u8]) -> String {

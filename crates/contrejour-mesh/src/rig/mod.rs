@@ -1,8 +1,10 @@
 //! What moves a model: nodes, skins, morph targets and animations, beside the triangles at rest.
 
+#[cfg_attr(not(feature = "gltf"), expect(dead_code, reason = "the loader of glTF makes animations"))]
 mod animation;
 mod deforming;
 mod pose;
+#[cfg_attr(not(feature = "gltf"), expect(dead_code, reason = "the loader of glTF makes animations"))]
 mod sampler;
 
 use std::sync::Arc;

@@ -5,7 +5,7 @@ mod mutations;
 mod seeds;
 
 use arbitrary::{Arbitrary, Unstructured};
-use contrejour_properties::{Caster, Format, check_mesh_file, check_scene_text, check_silhouette};
+use contrejour_properties::{Caster, Format, check_mesh_file, check_rig, check_scene_text, check_silhouette};
 use proptest::prelude::*;
 
 use mutations::{Mutation, mutate, mutations};
@@ -48,6 +48,11 @@ proptest! {
     #[test]
     fn mutated_gltf_files_are_refused_or_load(bytes in mutated(Format::Gltf)) {
         check_mesh_file(Format::Gltf, &bytes);
+    }
+
+    #[test]
+    fn mutated_rigs_are_refused_or_move(bytes in mutated(Format::Gltf)) {
+        check_rig(&bytes);
     }
 
     #[test]

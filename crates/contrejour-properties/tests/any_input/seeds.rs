@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use contrejour_properties::{Format, check_mesh_file, check_scene_text};
+use contrejour_properties::{Format, check_mesh_file, check_rig, check_scene_text};
 
 /// Files in a target's folder of seeds, by name.
 fn files(target: &str) -> Vec<PathBuf> {
@@ -46,6 +46,8 @@ fn most_seeds_load() {
         assert!(loaded.len() + 1 >= seeds.len() && loaded.len() >= 2, "{format:?}: {loaded:?}");
         assert!(loaded.iter().all(|loaded| loaded.triangles > 0), "{format:?}: {loaded:?}");
     }
+    let deforming = seeds(Format::Gltf).iter().filter_map(|bytes| check_rig(bytes)).filter(|&parts| parts > 0).count();
+    assert!(deforming >= 2, "{deforming} seeds deform");
     let scenes: Vec<_> = scene_seeds().iter().filter_map(|text| check_scene_text(text)).collect();
     assert!(scenes.len() >= 2, "{scenes:?}");
 }
