@@ -29,7 +29,7 @@ pub enum Command {
     Render(RenderArguments),
     /// Find the silhouette edges of a mesh
     Silhouette(SilhouetteArguments),
-    /// Report what a mesh is made of and what is wrong with it
+    /// Report what a mesh is made of, what is wrong with it, and its animations
     Inspect(InspectArguments),
     /// Print what a frame of a scene would do, and what it leaves out and why
     Plan(PlanArguments),

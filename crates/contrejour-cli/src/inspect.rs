@@ -1,6 +1,10 @@
-//! `contrejour inspect`: the topology report of each mesh of a file.
+//! `contrejour inspect`: the topology report of each mesh of a file, and its animations.
 
-use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh, TopologyReport, TriangleMesh};
+use std::path::Path;
+
+use contrejour_mesh::{
+    BuildOptions, LoadError, MeshFile, Rig, TopologyAwareMesh, TopologyReport, TriangleMesh, load, load_animated,
+};
 use serde::Serialize;
 
 use crate::args::InspectArguments;
@@ -11,6 +15,7 @@ use crate::output::print;
 struct FileReport {
     file: String,
     meshes: Vec<MeshReport>,
+    animations: Vec<AnimationReport>,
     warnings: Vec<String>,
 }
 
@@ -22,11 +27,33 @@ struct MeshReport {
     report: TopologyReport,
 }
 
+#[derive(Serialize)]
+struct AnimationReport {
+    name: String,
+    seconds: f64,
+}
+
 pub fn run(arguments: &InspectArguments) -> Result<(), Failure> {
-    let MeshFile { meshes, warnings, .. } = contrejour_mesh::load(&arguments.mesh)?;
+    let (MeshFile { meshes, warnings, .. }, rig) = load_all(&arguments.mesh)?;
     let meshes = meshes.iter().map(report).collect::<Result<Vec<_>, _>>()?;
-    let file = FileReport { file: arguments.mesh.display().to_string(), meshes, warnings };
+    let animations = rig.animations.into_iter();
+    let animations = animations.map(|animation| AnimationReport { name: animation.name, seconds: animation.duration });
+    let file =
+        FileReport { file: arguments.mesh.display().to_string(), meshes, animations: animations.collect(), warnings };
     print(&if arguments.json { serde_json::to_string_pretty(&file)? } else { text(&file) })
+}
+
+/// The meshes as every command but an animated `render` has them, and what moves them.
+fn load_all(path: &Path) -> Result<(MeshFile, Rig), LoadError> {
+    match load_animated(path) {
+        Ok(model) if model.rig.parts.iter().all(|part| part.deforming.is_none()) => Ok((model.file, model.rig)),
+        Ok(model) => Ok((load(path)?, model.rig)),
+        Err(error) => {
+            let mut file = load(path)?;
+            file.warnings.push(format!("its animations are not read: {error}"));
+            Ok((file, Rig::default()))
+        }
+    }
 }
 
 fn report(mesh: &TriangleMesh) -> Result<MeshReport, Failure> {
@@ -45,6 +72,12 @@ fn text(file: &FileReport) -> String {
     }
     if file.meshes.is_empty() {
         text += "\nno mesh\n";
+    }
+    if !file.animations.is_empty() {
+        text += "\n";
+    }
+    for AnimationReport { name, seconds } in &file.animations {
+        text += &format!("animation {name:?}, {seconds:.3} s\n");
     }
     for warning in &file.warnings {
         text += &format!("\nnote: {warning}\n");

@@ -65,10 +65,10 @@ pub use wgpu;
 /// What most users need.
 pub mod prelude {
     pub use contrejour_gpu::{
-        CasterHandle, CasterInput, EyeInput, LightHandle, MeshHandle, PassTimer, Positions, ShadowOptions, Shadows,
-        Untimed,
+        CasterHandle, CasterInput, DeformInput, Deformer, EyeInput, LightHandle, MeshHandle, PassTimer, Positions,
+        ShadowOptions, Shadows, Untimed,
     };
-    pub use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
+    pub use contrejour_mesh::{BuildOptions, DeformingMesh, TopologyAwareMesh};
     pub use contrejour_plan::{DepthBias, Light, LightKind, Outputs, ShadowSettings, SmoothieWidth, Technique};
 }
 
