@@ -3,6 +3,7 @@
 pub mod ball;
 pub mod chain;
 pub mod compare;
+pub mod deform_frame;
 pub mod deforming;
 pub mod exhaust;
 pub mod frame;

@@ -112,11 +112,17 @@ fn are_exact(gpu: &Gpu, meshes: &[PosedMesh]) -> Outcome {
 }
 
 fn uploads_poses_alone(gpu: &Gpu) -> Outcome {
-    let meshes = [tube(), tube()];
+    // The same mesh in two poses.
+    let mut meshes = [tube(), tube()];
+    meshes[1].deforming = Arc::clone(&meshes[0].deforming);
+    meshes[1].poses.rotate_left(1);
     let mut deformed = Deformed::new(gpu, &meshes)?;
     // Three tubes of three joints, 48 bytes each, and two weights.
     let expected = 3 * (3 * 48 + 2 * 4);
     let first = deformed.frame(&meshes, 1)?;
+    for (PosedMesh { deforming, poses, .. }, moved) in meshes.iter().zip(&first) {
+        compare_positions(deforming, &poses[1], &deforming.posed(&poses[1]), &moved.positions)?;
+    }
     if deformed.deformer.upload_bytes() != expected {
         return Err(format!("{} bytes are uploaded, {expected} expected", deformed.deformer.upload_bytes()));
     }

@@ -3,7 +3,8 @@
 use contrejour_mesh::PartPose;
 use contrejour_tests::chain::{Fault, check_each_is_found};
 use contrejour_tests::compare::check_finite;
-use contrejour_tests::deforming::{DeformFrame, PosedMesh, check_alike, compare_positions, of_file, tube};
+use contrejour_tests::deform_frame::DeformFrame;
+use contrejour_tests::deforming::{PosedMesh, check_alike, compare_positions, of_file, tube};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use contrejour_tests::meshes::shared_folder;
