@@ -6,7 +6,7 @@ use clap::Args;
 use contrejour_lab::stress::{LightMix, SweepAxis};
 
 use crate::shadow_args::ShadowArguments;
-use crate::values::parse_seconds;
+use crate::values::parse_duration;
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
@@ -28,7 +28,7 @@ pub struct StressArguments {
     pub triangles_per_caster: usize,
 
     /// How long frames are drawn
-    #[arg(long, value_name = "S", default_value = "5", value_parser = parse_seconds)]
+    #[arg(long, value_name = "S", default_value = "5", value_parser = parse_duration)]
     pub seconds: f64,
 
     /// Seed of all paths

@@ -42,8 +42,8 @@ pub fn parse_width(text: &str) -> Result<SmoothieWidth, String> {
     }
 }
 
-/// Seconds, more than 0 and up to a day.
-pub fn parse_seconds(text: &str) -> Result<f64, String> {
+/// How many seconds something lasts: more than 0, up to a day.
+pub fn parse_duration(text: &str) -> Result<f64, String> {
     let seconds: f64 = text.parse().map_err(|_| format!("{text:?} is no number"))?;
     if seconds > 0.0 && seconds <= 86_400.0 {
         Ok(seconds)

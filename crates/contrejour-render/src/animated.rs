@@ -150,7 +150,7 @@ impl Casters {
     }
 
     /// Where the positions of a caster are.
-    pub fn positions(&self, caster: &crate::casters::Caster) -> Positions<'_> {
+    pub fn positions(&self, caster: &crate::casters::Caster) -> Positions {
         let deformed = caster.deforming.as_ref().zip(self.deformer.as_ref());
         deformed.and_then(|(deforming, deformer)| deformer.positions(deforming.handle)).unwrap_or_default()
     }

@@ -159,12 +159,7 @@ impl CastShadows {
     }
 
     /// Prepares a frame of the casters that it was made with, where they stand now, and with the light like this.
-    pub fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        casters: &Casters,
-        light_local: &Light,
-    ) -> Result<(), PrepareShadowsError> {
+    pub fn prepare(&mut self, gpu: &Gpu, casters: &Casters, light_local: &Light) -> Result<(), PrepareShadowsError> {
         for (handle, caster) in self.handles.iter().zip(&casters.placed) {
             self.shadows.place_caster(*handle, &caster.local_from_object)?;
         }

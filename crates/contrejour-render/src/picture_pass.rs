@@ -48,7 +48,7 @@ pub(crate) struct PicturePass {
 impl PicturePass {
     /// The pass for shadows that were prepared.
     pub fn new(gpu: &Gpu, cast: &CastShadows) -> Self {
-        let CastShadows { shadows, light } = cast;
+        let CastShadows { shadows, light, .. } = cast;
         let device = &gpu.device;
         let wgsl = format!("{SHADE}{}", shadows.visibility_wgsl(*light, VISIBILITY_GROUP));
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -75,7 +75,7 @@ pub(crate) struct PosedDraw<'a> {
     pub pose: &'a PartPose,
     pub local: &'a LocalSpace,
     /// Where the positions of a mesh that deforms are, in object space, and its normals.
-    pub deformed: Option<(Positions<'a>, Vec<[f32; 3]>)>,
+    pub deformed: Option<(Positions, Vec<[f32; 3]>)>,
 }
 
 /// A mesh has more triangles or vertices than the device's buffers hold.
@@ -168,7 +168,7 @@ impl SceneMeshes {
         let mut bytes = size_of::<Surface>();
         let buffers = &mut self.buffers[self.draws[draw]];
         if let Some((Positions::InBuffer { buffer, offset, .. }, normals)) = &posed.deformed {
-            buffers.positions = ((*buffer).clone(), *offset);
+            buffers.positions = (buffer.clone(), *offset);
             buffers.object_from_vertex = DMat4::IDENTITY;
             let attributes = attributes(normals, &posed.placed.mesh.colors);
             gpu.queue.write_buffer(&buffers.attributes, 0, bytemuck::cast_slice(&attributes));

@@ -73,7 +73,7 @@ impl<'a> Deformed<'a> {
             return Err("a prepared mesh has no positions".into());
         };
         let first = offset as usize / 12;
-        let mut positions: Vec<[f32; 3]> = self.gpu.read_back(buffer, first + mesh.vertices().len());
+        let mut positions: Vec<[f32; 3]> = self.gpu.read_back(&buffer, first + mesh.vertices().len());
         positions.drain(..first);
         Ok(OwnPositions { buffer: buffer.clone(), offset, stride, positions })
     }

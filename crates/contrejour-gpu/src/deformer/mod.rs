@@ -162,11 +162,11 @@ impl Deformer {
 
     /// Where the positions of a mesh lie once the recorded commands have run, for [`CasterInput`](crate::CasterInput)
     /// and, as 12 bytes a vertex, for vertex buffers; none before a frame was prepared with the mesh.
-    pub fn positions(&self, caster: DeformHandle) -> Option<Positions<'_>> {
+    pub fn positions(&self, caster: DeformHandle) -> Option<Positions> {
         let index = self.casters.keys().position(|&handle| handle == caster)?;
         let buffer = &self.resources.as_ref()?.positions;
         let offset = 4 * u64::from(self.tables.first_position_words[index]);
-        Some(Positions::InBuffer { buffer, offset, stride: 12 })
+        Some(Positions::InBuffer { buffer: buffer.clone(), offset, stride: 12 })
     }
 
     /// Bytes of joint matrices and weights that the last [`prepare`](Self::prepare) uploaded.

@@ -27,7 +27,7 @@ pub(super) struct VisibilityPass {
 impl VisibilityPass {
     /// The pass for shadows that were prepared.
     pub fn new(gpu: &Gpu, cast: &CastShadows, receivers: &ReceiverTarget) -> Self {
-        let CastShadows { shadows, light } = cast;
+        let CastShadows { shadows, light, .. } = cast;
         let wgsl = format!("{JUDGED_VISIBILITY}{}", shadows.visibility_wgsl(*light, VISIBILITY_GROUP));
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("judged visibility"),
