@@ -36,7 +36,7 @@ pub fn silhouette(positions: &[[f32; 3]], triangles: &[[u32; 3]], light: [f32; 4
 }
 
 /// What [`silhouette`] knows of a mesh before it knows the light; [`ManyLights`](crate::ManyLights) is made of it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct OracleTopology {
     positions: Vec<[f32; 3]>,
     faces: Vec<[u32; 3]>,

@@ -9,6 +9,7 @@ mod report;
 mod reports;
 mod silhouette;
 mod stability;
+mod stress;
 mod xml;
 
 use std::env;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         reports::trials(),
         report::trials(),
         stability::trials(),
+        stress::trials(),
         bad_input::trials(),
         xml::trials(),
         #[cfg(unix)]

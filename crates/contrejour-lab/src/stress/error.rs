@@ -1,7 +1,10 @@
 //! Why there is no summary.
 
-use contrejour_gpu::{AddMeshError, CasterError, CountersError, NewShadowsError, PrepareError, ShadowLightError};
-use contrejour_mesh::TopologyError;
+use contrejour_gpu::{
+    AddDeformingError, AddMeshError, CasterError, CountersError, DeformError, NewDeformerError, NewShadowsError,
+    PrepareError, ShadowLightError,
+};
+use contrejour_mesh::{DeformingMeshError, TopologyError};
 use contrejour_render::{DeviceFault, ReadError};
 
 use super::StressOptions;
@@ -23,6 +26,18 @@ pub enum StressError {
     /// The mesh of the casters has no topology.
     #[error(transparent)]
     Topology(#[from] TopologyError),
+    /// The mesh can't deform.
+    #[error(transparent)]
+    Deforming(#[from] DeformingMeshError),
+    /// The device does not allow meshes that deform.
+    #[error(transparent)]
+    Deformer(#[from] NewDeformerError),
+    /// A mesh that deforms does not fit.
+    #[error(transparent)]
+    AddDeforming(#[from] AddDeformingError),
+    /// A pose is not taken.
+    #[error(transparent)]
+    Deform(#[from] DeformError),
     /// The device does not allow shadows.
     #[error(transparent)]
     Shadows(#[from] NewShadowsError),

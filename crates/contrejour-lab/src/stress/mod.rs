@@ -1,10 +1,12 @@
 //! Many moving lights over many moving casters: what a frame costs the CPU and the device, and whether every silhouette
 //! is the exact one all the same.
 //!
-//! Lights and casters walk on paths that follow from a seed and the number of the frame alone, so that a run can be had
+//! Casters are tori: every second one is mirrored, every third one stretched, and every fourth one bends by two joints and
+//! swells by a morph target. Lights and casters walk on paths that follow from a seed and the number of the frame alone, so that a run can be had
 //! again. [`run`] draws frame after frame for a while, and keeps two frames under way; [`Summary`] is what came of it.
 
 mod error;
+mod flexible;
 mod kind;
 mod options;
 mod paths;

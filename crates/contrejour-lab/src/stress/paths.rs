@@ -58,6 +58,11 @@ impl Path {
         DMat4::from_scale_rotation_translation(self.scale, turn, self.place(frame))
     }
 
+    /// The angle of a swing in a frame.
+    pub fn swing(&self, frame: u64) -> f64 {
+        self.angles(frame).y
+    }
+
     fn angles(&self, frame: u64) -> DVec3 {
         TAU * (self.phase + self.turns_a_second * (frame as f64 / FRAMES_A_SECOND))
     }

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use contrejour_gpu::{Shadows, Untimed};
+use contrejour_gpu::Untimed;
 use contrejour_layout::BLOCK_SIZE;
 use contrejour_plan::FramePlan;
 use contrejour_render::{Gpu, StageTimer};
@@ -59,7 +59,7 @@ struct Costs {
 pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<Summary, StressError> {
     let world = World::new(options)?;
     let mut placed = world.place(gpu, 0)?;
-    settle(gpu, &mut placed.shadows)?;
+    settle(gpu, &mut placed)?;
     let overflows_before = placed.shadows.stats().overflow_frames;
 
     let mut summary = Summary::default();
@@ -80,7 +80,7 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
         let stats = placed.shadows.stats();
         summary.lights_redone += u64::from(stats.lights_redone);
         summary.lights_kept += u64::from(stats.lights_kept);
-        summary.upload_bytes_per_frame = stats.upload_bytes;
+        summary.upload_bytes_per_frame = stats.upload_bytes + placed.deformer.upload_bytes();
         summary.draws_recorded = stats.draws_recorded;
         summary.dispatches_recorded = stats.dispatches_recorded;
         if options.verify && (frame == 1 || random.u64(..VERIFIED_OF) == 0) {
@@ -118,10 +118,12 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
 }
 
 /// Draws the first frame until all lists have room, so that later ones create nothing.
-pub(super) fn settle(gpu: &Gpu, shadows: &mut Shadows) -> Result<(), StressError> {
+pub(super) fn settle(gpu: &Gpu, placed: &mut Placed) -> Result<(), StressError> {
+    let Placed { shadows, deformer, .. } = placed;
     for _ in 0..REPEATS_MAX {
         shadows.prepare(&gpu.device, &gpu.queue)?;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        deformer.encode(&mut encoder, &mut Untimed);
         shadows.encode(&mut encoder, &mut Untimed);
         gpu.queue.submit([encoder.finish()]);
         gpu.wait(None)?;
@@ -144,11 +146,12 @@ fn draw(
 ) -> Result<wgpu::SubmissionIndex, StressError> {
     let clock = ThreadTime::now();
     let ms = |clock: ThreadTime| 1000.0 * clock.elapsed().as_secs_f64();
-    placed.walk(world, frame)?;
+    placed.walk(gpu, world, frame)?;
     placed.shadows.prepare(&gpu.device, &gpu.queue)?;
     costs.upload.push(ms(clock));
     let record = ThreadTime::now();
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("stress") });
+    placed.deformer.encode(&mut encoder, &mut Untimed);
     placed.shadows.encode(&mut encoder, &mut Untimed);
     let commands = encoder.finish();
     costs.record.push(ms(record));
@@ -164,9 +167,10 @@ fn stages(gpu: &Gpu, world: &World, placed: &mut Placed, last: u64) -> Result<Ve
     let told = |error: String| StressError::Timer(error);
     let mut timer = StageTimer::new(gpu).map_err(|error| told(error.to_string()))?;
     for frame in (last + 1..).take(TIMED_FRAMES) {
-        placed.walk(world, frame)?;
+        placed.walk(gpu, world, frame)?;
         placed.shadows.prepare(&gpu.device, &gpu.queue)?;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("timed") });
+        placed.deformer.encode(&mut encoder, &mut timer);
         placed.shadows.encode(&mut encoder, &mut timer);
         timer.resolve(&mut encoder);
         gpu.queue.submit([encoder.finish()]);
