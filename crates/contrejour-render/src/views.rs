@@ -1,6 +1,7 @@
-//! Pictures of what stands behind a picture: maps, visibility and silhouettes.
+//! Pictures of what stands behind a picture: maps, visibility and silhouettes. Of a light with several views the maps are
+//! those of the first one.
 
-use contrejour_plan::{DepthPrecision, LightKind};
+use contrejour_plan::{DepthPrecision, LightKind, guard_ndc, views_with_guard};
 use image::RgbaImage;
 
 use crate::map_texels::read_texels;
@@ -92,14 +93,12 @@ impl Renderer {
         ndc_z.iter().map(|&z| if z < 1.0 { linear(z.into()) as f32 } else { far as f32 }).collect()
     }
 
-    /// Nearest and farthest depth of the light's view, in local units.
+    /// Nearest and farthest depth of the light's views, in local units.
     fn depth_range(&self) -> (f64, f64) {
-        match self.light_local.kind {
-            LightKind::Spot { near, far, .. } | LightKind::Point { near, far, .. } => (near, far),
-            LightKind::Directional { half_depth, .. } => (0.0, 2.0 * half_depth),
-            // The renderer has no eye to give to the library, which refuses the light before there is a map.
-            LightKind::Cascaded { .. } => (0.0, 1.0),
-        }
+        let settings = self.cast.shadows.plan(self.cast.light).map(|plan| plan.settings).unwrap_or_default();
+        let views = views_with_guard(&self.light_local, guard_ndc(&self.light_local, &settings));
+        // A light that has maps has views.
+        views.ok().and_then(|views| views.first().map(|view| (view.near_depth, view.far_depth))).unwrap_or((0.0, 1.0))
     }
 
     fn visibility_picture(&self) -> Result<RgbaImage, ReadError> {
