@@ -76,7 +76,7 @@ fn extrude(silhouette: SilhouetteEdge, quad: ptr<function, Quad>) -> bool {
         smoothie_width(image_of(point_at(depth_span.begin, low_clip, high_clip, delta_clip)).q),
         smoothie_width(image_of(point_at(depth_span.end, low_clip, high_clip, delta_clip)).q),
     );
-    let span = clip_by_sides(depth_span, low_clip, high_clip, 1.0 + width);
+    let span = clip_by_sides(depth_span, low_clip, high_clip, 1.0 + widest_ndc(width));
     if !(span.begin < span.end) {
         return false;
     }
@@ -112,7 +112,7 @@ fn point_at(t: f32, low: vec4f, high: vec4f, delta: vec4f) -> vec4f {
 fn image_of(clip: vec4f) -> ImagePoint {
     let depth = clamp(depth_of_clip(clip), view.near_depth, view.far_depth);
     let w = select(clip.w, depth, view.perspective == 1u);
-    let most = 1.0 + view.width_max_ndc;
+    let most = 1.0 + widest_ndc(view.width_max_ndc);
     return ImagePoint(clamp(clip.xy / w, vec2f(-most), vec2f(most)), q_of_depth(depth));
 }
 

@@ -2,7 +2,8 @@
 // One vertex invocation = one corner of a triangle of a quad or of a corner.
 // Reads quads or corners, and the linear depth of the shadow map.
 // Chan & Durand 2003, sections 4.2 and 4.3. Distance, width and q are linear on the image plane; alpha is not, where
-// the ends have different widths, so it is made in the fragment.
+// the ends have different widths, so it is made in the fragment. All that is so where the light is a sphere: there a
+// quad is wider and leans, and a corner is a part of an ellipse, which is a disk's image.
 
 @group(0) @binding(0) var<uniform> view: LightView;
 @group(0) @binding(1) var<storage, read> quads: array<Quad>;
@@ -16,7 +17,7 @@ struct SmoothieVertex {
     @builtin(position) clip: vec4f,
     // Distance across the edge, negative on the blocker's side.
     @location(0) across: f32,
-    // Offset from a corner's apex; zero on a quad.
+    // Offset from a corner's apex, on the disk whose image the corner is; zero on a quad.
     @location(1) around: vec2f,
     @location(2) width: f32,
     // As a share of the largest: rasterisers extrapolate what they interpolate, which may be too much for a float.
@@ -33,15 +34,17 @@ fn vertex_quad(@builtin(vertex_index) index: u32) -> SmoothieVertex {
     let corner = index % VERTICES_PER_QUAD;
     let is_high = corner == 1u || corner == 2u || corner == 4u;
     let is_outer = corner == 2u || corner >= 4u;
-    let width = select(quad.width_ndc.x, quad.width_ndc.y, is_high);
+    let end = select(quad.low_ndc, quad.high_ndc, is_high);
+    let place = leaning(end);
+    let width = widening(place, quad.outward) * select(quad.width_ndc.x, quad.width_ndc.y, is_high);
     let q = select(quad.q.x, quad.q.y, is_high);
     let across = select(-rim_overlap(), width, is_outer);
-    let ndc = select(quad.low_ndc, quad.high_ndc, is_high) + across * quad.outward;
-    return SmoothieVertex(clip_at(ndc, q), across, vec2f(0.0), width, q / q_unit());
+    return SmoothieVertex(clip_at(end + across * slant(place, quad.outward), q), across, vec2f(0.0), width, q / q_unit());
 }
 
 // A corner reaches as far over its quads and under the blocker: its own rim and theirs fall between texels in ways of
-// their own. Minimum blending settles what is covered twice.
+// their own. Minimum blending settles what is covered twice. It is built on a disk, of which an ellipse is the image: no
+// way gets shorter by that.
 @vertex
 fn vertex_corner(@builtin(vertex_index) index: u32) -> SmoothieVertex {
     let corner = corners[index / VERTICES_PER_CORNER];
@@ -49,19 +52,24 @@ fn vertex_corner(@builtin(vertex_index) index: u32) -> SmoothieVertex {
     let triangle = index % VERTICES_PER_CORNER / 3u;
     let overlap = rim_overlap();
     let width = corner.width_ndc;
-    let first = width * corner.begin + overlap * vec2f(corner.begin.y, -corner.begin.x);
-    let last = width * corner.end + overlap * vec2f(-corner.end.y, corner.end.x);
-    let begins = select(width * corner.middle, first, triangle < 2u);
-    let ends = select(last, width * corner.middle, triangle < 2u);
-    let tip = width * kite_tip(select(corner.middle, corner.begin, triangle < 2u), select(corner.end, corner.middle, triangle < 2u));
+    let place = leaning(corner.apex_ndc);
+    let begin = disk_direction(place, corner.begin);
+    let middle = disk_direction(place, corner.middle);
+    let end = disk_direction(place, corner.end);
+    let first = width * begin + overlap * vec2f(begin.y, -begin.x);
+    let last = width * end + overlap * vec2f(-end.y, end.x);
+    let begins = select(width * middle, first, triangle < 2u);
+    let ends = select(last, width * middle, triangle < 2u);
+    let tip = width * kite_tip(select(middle, begin, triangle < 2u), select(end, middle, triangle < 2u));
     let point = index % 3u;
     var around = tip;
     if point == 0u {
-        around = -overlap * corner.middle;
+        around = -overlap * middle;
     } else if (point == 1u) == (triangle % 2u == 0u) {
         around = select(ends, begins, triangle % 2u == 0u);
     }
-    return SmoothieVertex(clip_at(corner.apex_ndc + around, corner.q), 0.0, around, width, corner.q / q_unit());
+    let ndc = corner.apex_ndc + ellipse_from_disk(place, around);
+    return SmoothieVertex(clip_at(ndc, corner.q), 0.0, around, width, corner.q / q_unit());
 }
 
 // In NDC, whose side is 2.
@@ -70,7 +78,7 @@ fn rim_overlap() -> f32 {
 }
 
 // Where the tangents of the unit circle at two unit vectors meet. A kite spans at most a quarter turn, so the tip is at
-// most sqrt(2) away.
+// most sqrt(2) away; on the disk of an ellipse it spans less than half a turn, and the tip is at most sqrt(2 + p^2) away.
 fn kite_tip(first: vec2f, last: vec2f) -> vec2f {
     return (first + last) / (1.0 + dot(first, last));
 }

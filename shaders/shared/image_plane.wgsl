@@ -45,8 +45,7 @@ fn cross_2d(a: vec2f, b: vec2f) -> f32 {
     return a.x * b.y - a.y * b.x;
 }
 
-// Smoothie width at a blocker's q, in NDC.
+// Smoothie width at a blocker's q, in NDC, for a disk of light.
 fn smoothie_width(q: f32) -> f32 {
-    let width = view.width_fixed_ndc + view.width_per_q_ndc * (view.q_max - q);
-    return clamp(width, view.width_min_ndc, view.width_max_ndc);
+    return clamp(view.width_per_q_ndc * (view.q_max - q), view.width_min_ndc, view.width_max_ndc);
 }

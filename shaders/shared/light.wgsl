@@ -23,7 +23,7 @@ struct LightView {
     ndc_scale: f32,
     ndc_offset: f32,
     q_max: f32,
-    width_fixed_ndc: f32,
+    sphere_half_side: f32,
     width_per_q_ndc: f32,
     width_min_ndc: f32,
     width_max_ndc: f32,

@@ -6,7 +6,7 @@ use contrejour_layout::{
     LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SilhouetteEdge, WorkItem,
 };
 use contrejour_mesh::{FacePlanes, TopologyAwareMesh};
-use contrejour_plan::{Light, NearOne, ShadowSettings, ViewCounts, caster_place, views};
+use contrejour_plan::{Light, NearOne, ShadowSettings, View, ViewCounts, caster_place, views};
 
 use crate::meshes::TestPart;
 use crate::random::Random;
@@ -52,9 +52,13 @@ impl Frame {
     ///
     /// # Panics
     ///
-    /// When the light or the settings are refused.
+    /// When the light is refused.
     pub fn new(parts: &[TestPart], light: &Light, settings: &ShadowSettings) -> Self {
-        let view = views(light).expect("the lights of the tests are good")[0];
+        Self::of_view(parts, &views(light).expect("the lights of the tests are good")[0], settings)
+    }
+
+    /// The same of any view of a light.
+    pub fn of_view(parts: &[TestPart], view: &View, settings: &ShadowSettings) -> Self {
         let mut frame = Self::empty();
         let (mut lit_words, mut outline_words) = (0, 0);
         for (part, index) in parts.iter().zip(0..) {

@@ -50,6 +50,18 @@ pub fn lights(mesh: &TestMesh) -> Vec<Light> {
     lights
 }
 
+/// Point lights around which a mesh lies on several faces of the cube: one in its middle, and one outside that looks at it
+/// through an edge of the cube. None where they have no place within 32-bit numbers.
+pub fn lamps(mesh: &TestMesh) -> Vec<Light> {
+    let (middle, radius) = mesh.middle_and_radius();
+    let outside = middle + 1.3 * radius * DVec3::new(0.7, 0.7, 0.1);
+    let lamps = [(middle, 0.05 * radius), (outside, 0.1 * radius)].map(|(position, near)| {
+        let kind = LightKind::Point { position, radius: 0.02 * radius, near, far: 4.0 * radius };
+        Light { kind, color: [1.0; 3] }
+    });
+    lamps.into_iter().filter(|lamp| lamp.validate().is_ok()).collect()
+}
+
 /// A spot at a point that looks at a target, wide enough to hold most of what is around it; parallel light from there
 /// where a spot has no place within 32-bit numbers.
 pub fn point(position: DVec3, target: DVec3, radius: f64) -> Light {
@@ -114,6 +126,7 @@ mod tests {
             for light in lights {
                 assert_eq!(light.validate(), Ok(()), "{}: {light:?}", mesh.name);
             }
+            assert_eq!(lamps(mesh).len(), 2, "{}", mesh.name);
         }
     }
 }

@@ -58,13 +58,14 @@ shared_struct! {
         ndc_offset: f32,
         /// The largest `q` that a receiver can have: 0 in a perspective view, `far_depth` in an orthographic one.
         q_max: f32,
-        /// Smoothie width that does not depend on depth, in NDC.
-        width_fixed_ndc: f32,
-        /// Smoothie width per `q_max - q`: the light's size on the image plane.
+        /// Half the side of the image plane at depth 1 where the light is a sphere, 0 where it is a disk: times NDC, the
+        /// place from which a sphere is seen at a slant.
+        sphere_half_side: f32,
+        /// Smoothie width per `q_max - q`: the light's size on the image plane. 0 where the width is given.
         width_per_q_ndc: f32,
-        /// Smallest smoothie width: one and a half texels, in NDC.
+        /// Smallest smoothie width, in NDC: one and a half texels, or the width that is given.
         width_min_ndc: f32,
-        /// Largest smoothie width, in NDC.
+        /// Largest smoothie width, in NDC. As all widths that of a disk; a sphere's are stretched after it.
         width_max_ndc: f32,
         /// Depth by which a smoothie may lie behind its receiver, in texel footprints.
         bias_smoothie_texels: f32,

@@ -56,7 +56,7 @@ shared_struct! {
         high_ndc: [f32; 2],
         /// Unit vector on the image plane, across the edge and away from the blocker.
         outward: [f32; 2],
-        /// Smoothie width at the low and the high end, in NDC.
+        /// Smoothie width at the low and the high end, in NDC, before a sphere of light stretches it.
         width_ndc: [f32; 2],
         /// Blocker `q` at the low and the high end.
         q: [f32; 2],
@@ -92,7 +92,7 @@ shared_struct! {
         middle: [f32; 2],
         /// Unit outward direction where the wedge ends, at most half a turn counter-clockwise from `begin`.
         end: [f32; 2],
-        /// Smoothie width at the vertex, in NDC.
+        /// Smoothie width at the vertex, in NDC, before a sphere of light stretches it.
         width_ndc: f32,
         /// Blocker `q` at the vertex.
         q: f32,

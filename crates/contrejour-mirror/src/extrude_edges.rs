@@ -10,6 +10,7 @@ use glam::{Vec2, Vec4, Vec4Swizzles};
 
 use crate::caster_position::scaled_position;
 use crate::image_plane::{clip_from_object, clockwise, counter_clockwise, image_direction};
+use crate::light_outline::widest_ndc;
 use crate::view_depth::{depth_of_clip, q_of_depth, smoothie_width};
 
 /// The stage `extrude_edges`: silhouette edges to quads.
@@ -76,7 +77,7 @@ impl ExtrudeEdges<'_> {
         let depth_span = segment.clip_by_depth(Span { begin: 0.0, end: 1.0 })?;
         let width_at = |t| smoothie_width(self.view, self.image_of(segment.at(t)).1);
         let width = width_at(depth_span.begin).max(width_at(depth_span.end));
-        let span = segment.clip_by_sides(depth_span, 1.0 + width)?;
+        let span = segment.clip_by_sides(depth_span, 1.0 + widest_ndc(self.view, width))?;
 
         // Extrude away from the blocker.
         let (low_ndc, low_q) = self.image_of(segment.at(span.begin));
@@ -109,7 +110,7 @@ impl ExtrudeEdges<'_> {
     fn image_of(&self, clip: Vec4) -> (Vec2, f32) {
         let depth = depth_of_clip(self.view, clip).max(self.view.near_depth).min(self.view.far_depth);
         let w = if self.view.perspective == 1 { depth } else { clip.w };
-        let most = Vec2::splat(1.0 + self.view.width_max_ndc);
+        let most = Vec2::splat(1.0 + widest_ndc(self.view, self.view.width_max_ndc));
         ((clip.xy() / w).max(-most).min(most), q_of_depth(self.view, depth))
     }
 }

@@ -29,6 +29,7 @@ mod facing;
 mod frame;
 mod group_args;
 mod image_plane;
+mod light_outline;
 mod list_blocks;
 mod place_casters;
 mod recheck_faces;

@@ -156,7 +156,7 @@ impl TestScene {
             near_depth: if perspective { 1.0 } else { 0.0 },
             far_depth: if perspective { 9.0 } else { 8.0 },
             q_max: if perspective { 0.0 } else { 8.0 },
-            width_fixed_ndc: self.width_ndc,
+            width_min_ndc: self.width_ndc,
             width_max_ndc: 1.0,
             ..Default::default()
         }

@@ -3,9 +3,9 @@
 use contrejour_layout::LightView;
 use glam::Vec4;
 
-/// Smoothie width at a blocker's `q`, in NDC.
+/// Smoothie width at a blocker's `q`, in NDC, for a disk of light.
 pub(crate) fn smoothie_width(view: &LightView, q: f32) -> f32 {
-    let width = view.width_fixed_ndc + view.width_per_q_ndc * (view.q_max - q);
+    let width = view.width_per_q_ndc * (view.q_max - q);
     // Not `clamp`, which panics on bounds that are out of order; WGSL's does not.
     width.max(view.width_min_ndc).min(view.width_max_ndc)
 }
@@ -39,14 +39,8 @@ mod tests {
 
     #[test]
     fn width_grows_towards_the_light_and_keeps_its_limits() {
-        let view = LightView {
-            width_fixed_ndc: 0.01,
-            width_per_q_ndc: 0.1,
-            width_min_ndc: 0.02,
-            width_max_ndc: 0.05,
-            ..Default::default()
-        };
-        assert_eq!(smoothie_width(&view, -0.2), 0.01 + 0.1 * 0.2);
+        let view = LightView { width_per_q_ndc: 0.1, width_min_ndc: 0.02, width_max_ndc: 0.05, ..Default::default() };
+        assert_eq!(smoothie_width(&view, -0.3), 0.1 * 0.3);
         assert_eq!(smoothie_width(&view, -0.01), 0.02);
         assert_eq!(smoothie_width(&view, -10.0), 0.05);
     }

@@ -17,7 +17,7 @@ use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use contrejour_tests::stage_run::StageRun;
 use libtest_mimic::Trial;
 
-use crate::outline_balls::{Clip, Image, clip_and_delta, image, ndc_of, q_of, width_of};
+use crate::outline_balls::{Clip, Image, clip_and_delta, image, ndc_of, q_of, widest_of, width_of};
 use crate::parity::{for_each_case, for_each_smooth_case, run, stage};
 
 /// Of the edges of all cases together, one in so many may be decided by rounding.
@@ -47,7 +47,7 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
 }
 
 /// Clips of an edge that leave it whole.
-const FAULTS: [Fault; 3] = [
+const FAULTS: [Fault; 4] = [
     Fault::Replaced {
         stage: "extrude_edges",
         piece: "clip_by_depth(Span(0.0, 1.0), low_clip, high_clip);",
@@ -55,9 +55,11 @@ const FAULTS: [Fault; 3] = [
     },
     Fault::Replaced {
         stage: "extrude_edges",
-        piece: "clip_by_sides(depth_span, low_clip, high_clip, 1.0 + width);",
+        piece: "clip_by_sides(depth_span, low_clip, high_clip, 1.0 + widest_ndc(width));",
         fault: "depth_span;",
     },
+    // One that cuts off what reaches into the map of a point light.
+    Fault::Replaced { stage: "extrude_edges", piece: "1.0 + widest_ndc(width)", fault: "1.0 + width" },
     // And an edge whose image is a point that nobody counts.
     Fault::Replaced { stage: "extrude_edges", piece: "atomicAdd(&counters.point_edges, 1u);", fault: "" },
 ];
@@ -179,7 +181,7 @@ fn clip(frame: &Frame, quad: &Quad) -> Option<Clipped> {
     span.cut(low[3] - low[2], high[3] - high[2])?;
     let (near_end, far_end) = span.ends(&low, &high, &delta);
     let width_at = |clip: &Clip| width_of(&frame.view, q_of(&frame.view, clip));
-    let side = one + width_at(&near_end).max(width_at(&far_end));
+    let side = one + widest_of(&frame.view, width_at(&near_end).max(width_at(&far_end)));
     for axis in 0..2 {
         span.cut(side * low[3] + low[axis], side * high[3] + high[axis])?;
         span.cut(side * low[3] - low[axis], side * high[3] - high[axis])?;

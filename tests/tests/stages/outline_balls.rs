@@ -1,11 +1,16 @@
 //! Outline edges on the image plane with bounds on rounding: what two devices may differ in, and what not.
 
+use std::f32::consts::SQRT_2;
+
 use contrejour_layout::{Caster, CasterLight, LightView};
 use contrejour_tests::ball::Ball;
 use contrejour_tests::frame::Frame;
 
 /// The share of the longest image of an edge of its length below which that of an edge counts as a point.
 const POINT_TOLERANCE: f32 = 4e-6;
+
+/// The least share of a smoothie's growth that its own width leaves, in a sphere's light.
+const LEAST_GROWTH: f32 = 0.0625;
 
 /// A position or a difference of positions in clip space: x, y, z, w.
 pub type Clip = [Ball; 4];
@@ -108,11 +113,17 @@ pub fn q_of(view: &LightView, clip: &Clip) -> Ball {
     near * (Ball::exact(1.0) - clip[2]) + far * clip[2]
 }
 
-/// Smoothie width.
+/// Smoothie width of a disk of light.
 pub fn width_of(view: &LightView, q: Ball) -> Ball {
-    let per_q = Ball::exact(view.width_per_q_ndc) * (Ball::exact(view.q_max) - q);
-    let width = Ball::exact(view.width_fixed_ndc) + per_q;
+    let width = Ball::exact(view.width_per_q_ndc) * (Ball::exact(view.q_max) - q);
     width.max(Ball::exact(view.width_min_ndc)).min(Ball::exact(view.width_max_ndc))
+}
+
+/// How wide smoothies get that reach into the map, where a disk's are as wide as given.
+pub fn widest_of(view: &LightView, width: Ball) -> Ball {
+    let one = Ball::exact(1.0);
+    let half_side = Ball::exact(view.sphere_half_side);
+    width * (one + Ball::exact(SQRT_2) * half_side) / (one - width * half_side).max(Ball::exact(LEAST_GROWTH))
 }
 
 /// The place on the image plane.

@@ -1,11 +1,11 @@
 //! The frames that the stages are compared on, and one stage on the device.
 
-use contrejour_plan::{Light, ShadowSettings};
+use contrejour_plan::{CubeFace, Light, ShadowSettings, View, guard_ndc, views_with_guard};
 use contrejour_tests::chain::wgsl_of;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::Outcome;
-use contrejour_tests::lights::lights;
+use contrejour_tests::lights::{lamps, lights};
 use contrejour_tests::meshes::{TestMesh, TestPart, shapes, shared_named, tiny};
 use contrejour_tests::random::Random;
 use contrejour_tests::stage_run::{Outputs, StageRun};
@@ -23,6 +23,9 @@ const FILES: [&str; 9] = [
     "nasty/dragon_vrip_res4.ply",
     "animated/RiggedFigure.glb",
 ];
+
+/// Faces of the cubes around lamps.
+const LAMP_FACES: [CubeFace; 2] = [CubeFace::NegativeX, CubeFace::NegativeY];
 
 /// One mesh or many under one light, before the first stage.
 pub struct Case {
@@ -45,19 +48,30 @@ pub fn for_each_smooth_case(stage: &str, check: impl FnMut(&Case) -> Outcome) ->
 }
 
 fn for_each_case_of(meshes: &[TestMesh], stage: &str, mut check: impl FnMut(&Case) -> Outcome) -> Outcome {
+    let mut check_view = |mesh: &TestMesh, name: String, view: &View| {
+        let frame = Frame::of_view(&mesh.parts, view, &ShadowSettings::default());
+        let mut case = Case { name: format!("{}, {name}", mesh.name), frame };
+        case.frame.run_mirrors("place_casters", stage);
+        check(&case).map_err(|difference| format!("{}: {difference}", case.name))
+    };
     for mesh in meshes {
         let step = if mesh.face_count() > 500 { 6 } else { 3 };
         for (index, light) in lights(mesh).iter().enumerate().step_by(step) {
-            let mut case = Case { name: format!("{}, light {index}", mesh.name), frame: frame(&mesh.parts, light) };
-            case.frame.run_mirrors("place_casters", stage);
-            check(&case).map_err(|difference| format!("{}: {difference}", case.name))?;
+            check_view(mesh, format!("light {index}"), &of_light(light)[0])?;
+        }
+        for (index, lamp) in lamps(mesh).iter().enumerate() {
+            // Two faces of the cube that the mesh lies on.
+            for face in LAMP_FACES {
+                check_view(mesh, format!("lamp {index}, {face:?}"), &of_light(lamp)[face.index()])?;
+            }
         }
     }
     Ok(())
 }
 
-fn frame(parts: &[TestPart], light: &Light) -> Frame {
-    Frame::new(parts, light, &ShadowSettings::default())
+fn of_light(light: &Light) -> Vec<View> {
+    let guard = guard_ndc(light, &ShadowSettings::default());
+    views_with_guard(light, guard).expect("the lights of the tests are good")
 }
 
 fn meshes() -> Vec<TestMesh> {

@@ -97,7 +97,7 @@ pub const ALL: [MapPass; 7] = [
 const SHADOW_MAP_WGSL: &str =
     wgsl!("raster/shadow_map", "topology", "light", "caster_position", "view_depth", "power_of_two");
 
-const SMOOTHIE_WGSL: &str = wgsl!("raster/smoothie_buffer", "light", "args", "outline", "view_depth");
+const SMOOTHIE_WGSL: &str = wgsl!("raster/smoothie_buffer", "light", "light_outline", "args", "outline", "view_depth");
 
 const SMOOTHIE_DRAWS: &[DrawCount] = &[DrawCount::Indirect(1), DrawCount::Indirect(2)];
 

@@ -10,6 +10,7 @@ pub(super) const EXTRUDE_EDGES: ComputeStage = ComputeStage {
         "compute/extrude_edges",
         "topology",
         "light",
+        "light_outline",
         "outline",
         "invocation",
         "append",

@@ -93,7 +93,7 @@ mod tests {
         let counts = ViewCounts::default();
         let record = view.light_view(&settings(Technique::Smoothies(*smoothies)), &counts);
         let q = view.q_of_depth(view.near_depth) as f32;
-        let width = record.width_fixed_ndc + record.width_per_q_ndc * (record.q_max - q);
+        let width = record.width_per_q_ndc * (record.q_max - q);
         let width = width.clamp(record.width_min_ndc, record.width_max_ndc);
         f64::from(width) * view.rim_offset(DVec2::ONE, DVec2::ONE.normalize()).length()
     }

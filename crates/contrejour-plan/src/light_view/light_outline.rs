@@ -14,9 +14,13 @@ pub enum LightOutline {
     Disk,
     /// A sphere, which turns the same disk to every receiver: soft edges of a depth grow towards the rim of the map,
     /// more so the more they run around its middle. Point lights. Disks would turn at the border of two faces: alpha
-    /// would jump there by 0.06 on average, and by up to 0.4.
+    /// would jump there by 0.06 on average, and by up to 0.4. Smoothies know it; the filters of percentage-closer soft
+    /// shadows and of moments are as wide everywhere, as a disk's.
     Sphere,
 }
+
+/// The least share that a soft edge's width leaves of 1, as it is taken. A shader's constant too.
+const LEAST_GROWTH: f64 = 1.0 / 16.0;
 
 impl View {
     /// From a point of an edge's image to the rim of its soft edge, as a multiple of the width that a disk's would
@@ -45,26 +49,25 @@ impl View {
         (offset_ndc.length_squared() - along * along / (1.0 + place.length_squared())).max(0.0).sqrt()
     }
 
-    /// A bound of how wide soft edges are that reach into the map, where a disk's are `width_ndc` wide: the largest
-    /// number there is where they may come from anywhere.
+    /// A bound of how wide soft edges are that reach into the map, where a disk's are `width_ndc` wide. Those of a sphere
+    /// that is nearly as large as the blocker's depth could come from anywhere, and are cut off: from 15/16 of it on.
     pub(super) fn widest_ndc(&self, width_ndc: f64) -> f64 {
-        match self.light_outline {
-            LightOutline::Disk => width_ndc,
-            LightOutline::Sphere => {
-                // A line whose soft edge of width w meets the map passes the middle within sqrt(2) + w, so that
-                // w <= width (1 + side (sqrt(2) + w)).
-                let growth = 1.0 - width_ndc * self.half_side;
-                let widest = width_ndc * (1.0 + self.half_side * SQRT_2) / growth;
-                if growth > 0.0 { widest } else { f64::MAX }
-            }
-        }
+        // A line whose soft edge of width w meets the map passes the middle within sqrt(2) + w, so that
+        // w <= width (1 + side (sqrt(2) + w)).
+        let side = self.sphere_half_side();
+        width_ndc * (1.0 + SQRT_2 * side) / (1.0 - width_ndc * side).max(LEAST_GROWTH)
     }
 
     /// A place on the image plane at depth 1, and the middle for a disk, which looks alike from everywhere.
     fn leaning(&self, place_ndc: DVec2) -> DVec2 {
+        place_ndc * self.sphere_half_side()
+    }
+
+    /// Half the side of the image plane at depth 1 for a sphere, 0 for a disk.
+    pub(super) fn sphere_half_side(&self) -> f64 {
         match self.light_outline {
-            LightOutline::Disk => DVec2::ZERO,
-            LightOutline::Sphere => place_ndc * self.half_side,
+            LightOutline::Disk => 0.0,
+            LightOutline::Sphere => self.half_side,
         }
     }
 }

@@ -32,10 +32,9 @@ pub struct ViewCounts {
     pub corners: u32,
 }
 
-/// The smoothie width at a blocker's q is `clamp(fixed + per_q * (q_max - q), min, max)`, in NDC.
+/// The smoothie width at a blocker's q is `clamp(per_q * (q_max - q), min, max)`, in NDC.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct WidthTerms {
-    fixed: f64,
     per_q: f64,
     min: f64,
     max: f64,
@@ -62,7 +61,7 @@ impl View {
             ndc_scale: self.ndc_scale() as f32,
             ndc_offset: self.ndc_offset() as f32,
             q_max: self.q_max() as f32,
-            width_fixed_ndc: width.fixed as f32,
+            sphere_half_side: self.sphere_half_side() as f32,
             width_per_q_ndc: width.per_q as f32,
             width_min_ndc: width.min as f32,
             width_max_ndc: width.max as f32,
@@ -136,14 +135,13 @@ impl View {
         widest + GUARD_TEXELS * 2.0 / f64::from(settings.map_size)
     }
 
-    /// The widest smoothie that a blocker anywhere between near and far can have, in NDC.
     /// The widest smoothie that a blocker anywhere between near and far, or in front of a cascade, can have, in NDC.
     pub fn widest_smoothie_ndc(&self, smoothies: &SmoothieSettings, map_size: u32) -> f64 {
         let width = self.width_terms(smoothies, map_size);
         if self.casters_in_front == CastersInFront::Pancaked && width.per_q > 0.0 {
             return self.widest_ndc(width.max);
         }
-        let unclamped = width.fixed + width.per_q * (self.q_max() - self.q_of_depth(self.near_depth));
+        let unclamped = width.per_q * (self.q_max() - self.q_of_depth(self.near_depth));
         self.widest_ndc(unclamped.clamp(width.min, width.max))
     }
 
@@ -152,8 +150,8 @@ impl View {
         // On tiny maps one and a half texels can be more than the largest width.
         let max = f64::from(smoothies.width_max_ndc).max(min);
         match smoothies.width {
-            SmoothieWidth::Ndc(fixed) => WidthTerms { fixed: fixed.into(), per_q: 0.0, min, max },
-            SmoothieWidth::FromLightSize => WidthTerms { fixed: 0.0, per_q: self.light_size, min, max },
+            SmoothieWidth::Ndc(given) => WidthTerms { per_q: 0.0, min: f64::from(given).clamp(min, max), max },
+            SmoothieWidth::FromLightSize => WidthTerms { per_q: self.light_size, min, max },
         }
     }
 
@@ -207,7 +205,7 @@ mod tests {
     /// The width as the shaders compute it, from the record.
     fn width_ndc(view: &LightView, depth: f32) -> f32 {
         let q = if view.perspective == 1 { -1.0 / depth } else { depth };
-        let width = view.width_fixed_ndc + view.width_per_q_ndc * (view.q_max - q);
+        let width = view.width_per_q_ndc * (view.q_max - q);
         width.clamp(view.width_min_ndc, view.width_max_ndc)
     }
 

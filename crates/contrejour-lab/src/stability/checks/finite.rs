@@ -34,7 +34,7 @@ impl Floats for LightView {
             self.ndc_scale,
             self.ndc_offset,
             self.q_max,
-            self.width_fixed_ndc,
+            self.sphere_half_side,
             self.width_per_q_ndc,
             self.width_min_ndc,
             self.width_max_ndc,
