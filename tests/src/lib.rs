@@ -19,5 +19,6 @@ pub mod object_light;
 pub mod pipeline;
 pub mod random;
 pub mod ray_cast;
+pub mod soft_edges;
 pub mod stage_run;
 pub mod texture;

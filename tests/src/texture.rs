@@ -2,17 +2,17 @@
 
 use crate::gpu::Gpu;
 
-/// All channels of a texture of 32-bit floats, row by row.
+/// All channels of a texture of 32-bit floats, row by row, layer after layer.
 pub fn read_floats(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<f32> {
     bytemuck::pod_collect_to_vec(&read_bytes(gpu, texture, wgpu::TextureAspect::All))
 }
 
-/// A depth buffer of 32-bit floats, row by row.
+/// A depth buffer of 32-bit floats, row by row, layer after layer.
 pub fn read_depth(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<f32> {
     bytemuck::pod_collect_to_vec(&read_bytes(gpu, texture, wgpu::TextureAspect::DepthOnly))
 }
 
-/// All channels of a texture of 16-bit floats, row by row.
+/// All channels of a texture of 16-bit floats, row by row, layer after layer.
 pub fn read_half_floats(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<f32> {
     let bytes = read_bytes(gpu, texture, wgpu::TextureAspect::All);
     bytes.chunks_exact(2).map(|half| float_of_half(u16::from_le_bytes([half[0], half[1]]))).collect()
@@ -35,7 +35,7 @@ fn read_layer(gpu: &Gpu, texture: &wgpu::Texture, aspect: wgpu::TextureAspect, l
     let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let readable = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back a texture"),
-        size: u64::from(padded_row) * u64::from(texture.height()),
+        size: u64::from(padded_row) * u64::from(texture.height()) * u64::from(texture.depth_or_array_layers()),
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });

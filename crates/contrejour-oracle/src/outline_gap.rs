@@ -3,6 +3,9 @@
 //! What must hold, whatever the mesh: a point of the image plane that no blocker covers, but that is nearer to a
 //! blocker than the smoothies are wide, lies in a quad or in a corner. For its nearest blocker point is on the boundary
 //! of the blockers' image: inside an outline edge, and then the edge's quad has it; or at a vertex, and then a corner.
+//!
+//! Smoothies are looked at as a disk of light has them. Those of a sphere are drawn stretched, around each vertex by one
+//! linear map that turns no order of directions around: where the ones leave no gap, the others leave none.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

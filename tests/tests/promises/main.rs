@@ -6,6 +6,7 @@ mod device_trouble;
 mod exact;
 mod facing;
 mod judged;
+mod lamp_borders;
 mod left_out;
 mod many_lights;
 mod no_gaps;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         ten_million::trials(),
         no_gaps::trials(),
         smoothie_ways::trials(),
+        lamp_borders::trials(),
         left_out::trials(),
         peers::trials(),
         pictures::trials(),
