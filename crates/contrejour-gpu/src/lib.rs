@@ -22,6 +22,7 @@ mod pool;
 mod prepare;
 mod raster;
 mod readback;
+mod receive;
 mod resources;
 mod scene_buffers;
 pub mod shaders;
