@@ -15,7 +15,8 @@ pub struct SmoothieSettings {
     pub blend: SmoothieBlend,
 }
 
-/// How wide a smoothie is.
+/// How wide a smoothie is. One of a point light is that wide in the middle of its map, and elsewhere as much wider as a
+/// sphere's penumbra is: see [`LightOutline`](crate::LightOutline).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -23,7 +24,7 @@ pub enum SmoothieWidth {
     /// The same everywhere. Unit: NDC (the map's side is 2). Range: more than 0, up to 2; Chan and Durand (2003) show
     /// 0.02 and 0.08.
     Ndc(f32),
-    /// As the light's disk asks at each blocker's depth, so that the rim is where the outer penumbra ends.
+    /// As the light's size asks at each blocker's depth, so that the rim is where the outer penumbra ends.
     FromLightSize,
 }
 
