@@ -18,18 +18,13 @@ pub fn read_half_floats(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<f32> {
     bytes.chunks_exact(2).map(|half| float_of_half(u16::from_le_bytes([half[0], half[1]]))).collect()
 }
 
-/// The bytes of the first level of all layers, one after the other.
+/// The bytes of a map, layer by layer and row by row.
 pub fn read_layers(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
-    let aspect =
-        if texture.format().has_depth_aspect() { wgpu::TextureAspect::DepthOnly } else { wgpu::TextureAspect::All };
-    (0..texture.depth_or_array_layers()).flat_map(|layer| read_layer(gpu, texture, aspect, layer)).collect()
+    let has_depth = texture.format().has_depth_aspect();
+    read_bytes(gpu, texture, if has_depth { wgpu::TextureAspect::DepthOnly } else { wgpu::TextureAspect::All })
 }
 
 fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, aspect: wgpu::TextureAspect) -> Vec<u8> {
-    read_layer(gpu, texture, aspect, 0)
-}
-
-fn read_layer(gpu: &Gpu, texture: &wgpu::Texture, aspect: wgpu::TextureAspect, layer: u32) -> Vec<u8> {
     let bytes_per_texel = texture.format().block_copy_size(Some(aspect)).expect("the maps are plain textures");
     let row = texture.width() * bytes_per_texel;
     let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -39,10 +34,9 @@ fn read_layer(gpu: &Gpu, texture: &wgpu::Texture, aspect: wgpu::TextureAspect, l
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });
-    let origin = wgpu::Origin3d { z: layer, ..wgpu::Origin3d::ZERO };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.copy_texture_to_buffer(
-        wgpu::TexelCopyTextureInfo { texture, mip_level: 0, origin, aspect },
+        wgpu::TexelCopyTextureInfo { texture, mip_level: 0, origin: wgpu::Origin3d::ZERO, aspect },
         wgpu::TexelCopyBufferInfo {
             buffer: &readable,
             layout: wgpu::TexelCopyBufferLayout {
@@ -51,7 +45,7 @@ fn read_layer(gpu: &Gpu, texture: &wgpu::Texture, aspect: wgpu::TextureAspect, l
                 rows_per_image: Some(texture.height()),
             },
         },
-        wgpu::Extent3d { depth_or_array_layers: 1, ..texture.size() },
+        texture.size(),
     );
     gpu.queue.submit([encoder.finish()]);
     gpu.map(&readable).chunks(padded_row as usize).flat_map(|padded| &padded[..row as usize]).copied().collect()
