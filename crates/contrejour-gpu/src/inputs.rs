@@ -1,7 +1,7 @@
 //! What goes into a frame and what is known of it.
 
 use contrejour_layout::Counters;
-use contrejour_plan::{DeviceFacts, Outputs, ShadowSettings};
+use contrejour_plan::{DeviceFacts, Outputs, ShadowSettings, TextureKind};
 
 /// How the shadow of a light is made, and what is wanted of it.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +41,20 @@ pub struct Maps<'a> {
     /// Nearest linear smoothie depth and least alpha, `Rg32Float`; where the buffer is in one texture. With 16 bits
     /// `Rg16Float`, depth as a share of the farthest.
     pub smoothie_buffer: Option<&'a wgpu::Texture>,
+}
+
+impl<'a> Maps<'a> {
+    /// The map of one kind.
+    pub fn of(self, kind: TextureKind) -> Option<&'a wgpu::Texture> {
+        match kind {
+            TextureKind::ShadowDepth => self.shadow_depth,
+            TextureKind::ShadowHardwareDepth => self.shadow_hardware_depth,
+            TextureKind::Moments => self.moments,
+            TextureKind::SmoothieDepth => self.smoothie_depth,
+            TextureKind::SmoothieAlpha => self.smoothie_alpha,
+            TextureKind::SmoothieBuffer => self.smoothie_buffer,
+        }
+    }
 }
 
 /// What is known about the frames so far.

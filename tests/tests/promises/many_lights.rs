@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contrejour_gpu::{CasterHandle, CasterInput, LightHandle, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
-use contrejour_plan::{Light, LightKind, Omitted, Reason, ShadowSettings, TextureKind};
+use contrejour_plan::{Light, LightKind, Omitted, Reason, ShadowSettings};
 use contrejour_tests::compare::compare_exact;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
@@ -95,15 +95,7 @@ impl<'a> Crowd<'a> {
         let maps = self.shadows.maps(light);
         let mut bytes = Vec::new();
         for kind in visibility.textures() {
-            let map = match kind {
-                TextureKind::ShadowDepth => maps.shadow_depth,
-                TextureKind::ShadowHardwareDepth => maps.shadow_hardware_depth,
-                TextureKind::Moments => maps.moments,
-                TextureKind::SmoothieDepth => maps.smoothie_depth,
-                TextureKind::SmoothieAlpha => maps.smoothie_alpha,
-                TextureKind::SmoothieBuffer => maps.smoothie_buffer,
-            };
-            bytes.extend(read_layers(self.gpu, map.ok_or("a listed map is there")?));
+            bytes.extend(read_layers(self.gpu, maps.of(*kind).ok_or("a listed map is there")?));
         }
         if bytes.is_empty() { Err("the light has no texel".into()) } else { Ok(bytes) }
     }

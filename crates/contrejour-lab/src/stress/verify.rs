@@ -3,9 +3,7 @@
 use contrejour_gpu::{LightHandle, Positions, Shadows, Untimed};
 use contrejour_layout::{CasterLight, Counters, SilhouetteEdge};
 use contrejour_oracle::{ManyLights, OracleEdge, OracleTopology};
-use contrejour_plan::{
-    BufferKind, NearOne, ObjectBox, Stage, TextureKind, View, caster_light, guard_ndc, views_with_guard,
-};
+use contrejour_plan::{BufferKind, NearOne, ObjectBox, Stage, View, caster_light, guard_ndc, views_with_guard};
 use contrejour_render::{Gpu, read_buffer, read_rows};
 use glam::{DMat4, DVec3};
 
@@ -230,15 +228,7 @@ fn maps(gpu: &Gpu, shadows: &Shadows, light: LightHandle) -> Result<Vec<u8>, Str
     let kinds = shadows.plan(light).and_then(|plan| plan.visibility).map_or(&[][..], |kind| kind.textures());
     let mut bytes = Vec::new();
     for kind in kinds {
-        let map = match kind {
-            TextureKind::ShadowDepth => maps.shadow_depth,
-            TextureKind::ShadowHardwareDepth => maps.shadow_hardware_depth,
-            TextureKind::Moments => maps.moments,
-            TextureKind::SmoothieDepth => maps.smoothie_depth,
-            TextureKind::SmoothieAlpha => maps.smoothie_alpha,
-            TextureKind::SmoothieBuffer => maps.smoothie_buffer,
-        };
-        let Some(map) = map else { continue };
+        let Some(map) = maps.of(*kind) else { continue };
         let aspect = map.format().has_depth_aspect().then_some(wgpu::TextureAspect::DepthOnly);
         let texel = map.format().block_copy_size(aspect).unwrap_or(4);
         for layer in 0..map.depth_or_array_layers() {
