@@ -46,11 +46,12 @@ impl Sequence {
     }
 
     /// The scene's light in a frame.
-    pub fn light(self, scene: &Scene, frame: u32) -> Light {
-        match self {
-            Self::Orbit(frames) => orbit(&scene.light, frame, frames),
-            Self::Picture | Self::Animation(_) => scene.light,
-        }
+    pub fn light(self, scene: &Scene, frame: u32) -> Result<Light, Failure> {
+        let light = &scene.first_light()?.light;
+        Ok(match self {
+            Self::Orbit(frames) => orbit(light, frame, frames),
+            Self::Picture | Self::Animation(_) => *light,
+        })
     }
 }
 

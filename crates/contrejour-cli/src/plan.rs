@@ -18,7 +18,7 @@ struct DevicePlan {
 
 pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
     let scene = scenes::open(arguments.scene.as_deref())?;
-    let settings = arguments.shadow.applied_to(scene.shadow)?;
+    let settings = arguments.shadow.applied_to(scene.first_light()?.shadow)?;
     let (device, facts) = match Gpu::open() {
         Ok(gpu) => (Some(gpu.description()), gpu.facts()),
         Err(error) => {

@@ -49,7 +49,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     }
     let scene = drawn.scene();
     let options = ShadowOptions {
-        settings: arguments.shadow.applied_to(scene.shadow)?,
+        settings: arguments.shadow.applied_to(scene.first_light()?.shadow)?,
         outputs: Outputs::Maps,
         ..ShadowOptions::default()
     };
@@ -59,20 +59,20 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     match sequence.frames() {
         None => {
             let output = arguments.output.clone().unwrap_or_else(|| DEFAULT_OUTPUT.into());
-            renderer.draw_complete(&scene.light)?;
+            renderer.draw_complete(&sequence.light(scene, 0)?)?;
             save_png(&renderer.picture()?, &output)?;
             written.pictures.push(output);
         }
         Some(frames) => {
             let move_all = |renderer: &mut Renderer, frame| {
                 drawn.pose(renderer, sequence, frame)?;
-                Ok(sequence.light(scene, frame))
+                sequence.light(scene, frame)
             };
             draw_frames(&mut renderer, frames, move_all, frame_names.as_ref(), &mut written)?;
         }
     }
     if let Some(folder) = &arguments.views {
-        let last_light = sequence.light(scene, sequence.frames().map_or(0, |frames| frames - 1));
+        let last_light = sequence.light(scene, sequence.frames().map_or(0, |frames| frames - 1))?;
         write_views(&mut renderer, &last_light, folder, &mut written)?;
     }
     let measurements = renderer.measurements()?;

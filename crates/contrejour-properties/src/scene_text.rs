@@ -52,8 +52,11 @@ fn one_triangle() -> MeshFile {
 
 /// What a frame is made of must be in its range.
 pub(crate) fn check_scene(scene: &Scene) {
-    scene.light.validate().unwrap_or_else(|error| panic!("{error}"));
-    scene.shadow.validate().unwrap_or_else(|error| panic!("{error}"));
+    assert!((1..=Scene::MAX_LIGHTS).contains(&scene.lights.len()), "{} lights", scene.lights.len());
+    for light in &scene.lights {
+        light.validate().unwrap_or_else(|error| panic!("{error}"));
+    }
+    assert!(scene.exposure().is_normal(), "{}", scene.exposure_ev100);
     assert!(scene.size.iter().all(|side| (1..=Scene::MAX_SIDE).contains(side)), "{:?}", scene.size);
     for color in [scene.ambient, scene.background] {
         assert!(color.iter().all(|&channel| channel >= 0.0 && channel.is_finite()), "{color:?}");
@@ -78,13 +81,17 @@ mod tests {
     fn a_wrong_scene_is_found() {
         let good = Scene::around(one_triangle());
         check_scene(&good);
-        let faults: [Planted<Scene>; 7] = [
+        let faults: [Planted<Scene>; 11] = [
             ("near is 0", |scene| {
-                if let LightKind::Spot { near, .. } = &mut scene.light.kind {
+                if let LightKind::Spot { near, .. } = &mut scene.lights[0].light.kind {
                     *near = 0.0;
                 }
             }),
-            ("map size", |scene| scene.shadow.map_size = 0),
+            ("map size", |scene| scene.lights[0].shadow.map_size = 0),
+            ("0 lights", |scene| scene.lights.clear()),
+            ("intensity", |scene| scene.lights[0].intensity = Some(-1.0)),
+            ("inner cone", |scene| scene.lights[0].inner_cone_angle = Some(3.0)),
+            ("2000", |scene| scene.exposure_ev100 = 2000.0),
             ("[0, ", |scene| scene.size[0] = 0),
             ("NaN", |scene| scene.ambient[2] = f32::NAN),
             ("Camera", |scene| scene.camera.near = scene.camera.far),

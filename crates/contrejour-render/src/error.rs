@@ -1,6 +1,7 @@
 //! What can go wrong with a scene or a frame.
 
 use contrejour_gpu::CountersError;
+use contrejour_scene::NoLight;
 
 use crate::animated::AnimationError;
 use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
@@ -19,6 +20,9 @@ pub enum NewRendererError {
     /// The picture is larger than the device's textures.
     #[error(transparent)]
     SizeTooLarge(#[from] SizeTooLarge),
+    /// The scene has no light.
+    #[error(transparent)]
+    NoLight(#[from] NoLight),
     /// A mesh does not fit.
     #[error(transparent)]
     MeshTooLarge(#[from] MeshTooLarge),

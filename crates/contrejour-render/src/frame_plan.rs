@@ -5,7 +5,7 @@ use contrejour_plan::{
     Capacity, CasterFacts, DeviceFacts, FramePlan, LightError, ObjectBox, Outputs, PlanError, PlanInput, SceneFacts,
     ShadowSettings, guard_ndc, views_with_guard,
 };
-use contrejour_scene::Scene;
+use contrejour_scene::{NoLight, Scene};
 
 use crate::LocalSpace;
 use crate::casters::{CasterTopologyError, Casters};
@@ -16,6 +16,9 @@ pub enum FramePlanError {
     /// The scene's light is no light.
     #[error(transparent)]
     Light(#[from] LightError),
+    /// There is no light.
+    #[error(transparent)]
+    NoLight(#[from] NoLight),
     /// A mesh that casts has no topology.
     #[error(transparent)]
     Topology(#[from] CasterTopologyError),
@@ -31,7 +34,7 @@ pub enum FramePlanError {
 /// [`FramePlanError`] when the scene or the device does not allow a frame.
 pub fn frame_plan(scene: &Scene, settings: &ShadowSettings, device: &DeviceFacts) -> Result<FramePlan, FramePlanError> {
     let local = LocalSpace::around(&scene.camera);
-    let light = local.light(&scene.light);
+    let light = local.light(&scene.first_light()?.light);
     let views = views_with_guard(&light, guard_ndc(&light, settings))?;
     let casters = Casters::new(scene, &local)?;
     let facts = SceneFacts {

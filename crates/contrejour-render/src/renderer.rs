@@ -69,7 +69,7 @@ impl Renderer {
         check_size(&gpu, scene.size)?;
         let local = LocalSpace::around(&scene.camera);
         let casters = new_casters(&gpu, &local)?;
-        let light_local = local.light(&scene.light);
+        let light_local = local.light(&scene.first_light()?.light);
         let mut cast = CastShadows::new(&gpu, &casters, &light_local, options)?;
         cast.prepare(&gpu, &casters, &light_local)?;
         let pass = PicturePass::new(&gpu, &cast);

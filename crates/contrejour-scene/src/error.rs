@@ -137,6 +137,20 @@ pub enum Problem {
     /// A mesh with no or with two origins.
     #[error("a mesh needs either `shape` or `file`; give one of them, not both")]
     ShapeOrFile,
+    /// No light, or more than a scene may have.
+    #[error("there are {count} lights; give 1 to {most}", most = Scene::MAX_LIGHTS)]
+    LightCount {
+        /// How many.
+        count: usize,
+    },
+    /// An inner cone that is wider than the cone.
+    #[error("`inner_cone_angle_degrees` is {inner}, and the cone's angle is {cone}; give no more than that")]
+    InnerCone {
+        /// What was given, in degrees.
+        inner: f64,
+        /// Full opening angle of the cone, in degrees.
+        cone: f64,
+    },
     /// Depths in the wrong order.
     #[error("`far` is {far}, not beyond `near`, {near}; give more")]
     FarNotBeyondNear {

@@ -14,6 +14,7 @@ mod obj_text;
 mod orbit;
 mod scene;
 pub mod scene_format;
+mod scene_light;
 pub mod shapes;
 mod toml_text;
 
@@ -25,3 +26,4 @@ pub use error::{Place, Problem, SceneError};
 pub use obj_text::obj_text;
 pub use orbit::orbit;
 pub use scene::{Camera, Material, MeshSource, Scene, SceneMesh};
+pub use scene_light::{NoLight, SceneLight, SceneLightError};

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use contrejour_mesh::{LoadError, MeshFile, TriangleMesh, read_file};
-use contrejour_plan::{Light, ShadowSettings};
 use glam::{DMat4, DVec3};
 
 use crate::framing::frame;
 use crate::shapes::Shape;
 use crate::toml_text::read_scene;
-use crate::{Bounds, SceneError};
+use crate::{Bounds, NoLight, SceneError, SceneLight};
 
 /// Everything that a picture needs.
 #[derive(Clone, Debug)]
@@ -21,11 +20,16 @@ pub struct Scene {
     pub size: [u32; 2],
     /// What is seen, what casts and what receives.
     pub meshes: Vec<SceneMesh>,
-    /// The light that casts the shadow.
-    pub light: Light,
-    /// How the shadow is made.
-    pub shadow: ShadowSettings,
-    /// Linear light that is everywhere, on top of `light`. Range: 0 and up.
+    /// What shines. Range: 0 to [`Scene::MAX_LIGHTS`]. What is about one light takes the [first](Scene::first_light).
+    pub lights: Vec<SceneLight>,
+    /// Exposure value at ISO 100, of lights that have an [intensity](SceneLight::intensity): a luminance of
+    /// 1.2 2^EV cd/m^2 is white in the picture. Range: -64 to 64. Default: 0; a lit room at night has some 6, a sunny day
+    /// 15.
+    ///
+    /// 1.2 is 78 / (100 * 0.65), from the saturation of a sensor behind a lens that lets 0.65 through (Lagarde & de
+    /// Rousiers 2014, "Moving Frostbite to Physically Based Rendering", on the camera).
+    pub exposure_ev100: f64,
+    /// Linear light that is everywhere, on top of `lights`, as bright as it is in the picture. Range: 0 and up.
     pub ambient: [f32; 3],
     /// Linear colour where there is no mesh. Range: 0 and up.
     pub background: [f32; 3],
@@ -39,6 +43,12 @@ impl Scene {
 
     /// Most meshes of a scene.
     pub const MAX_MESHES: usize = 65_536;
+
+    /// Most lights of a scene.
+    pub const MAX_LIGHTS: usize = 256;
+
+    /// The largest [`Scene::exposure_ev100`]; the least is its negative.
+    pub const MAX_EXPOSURE_EV100: f64 = 64.0;
 
     /// The most bytes of a scene file: 16 MiB.
     pub const MAX_FILE_BYTES: u64 = 1 << 24;
@@ -111,6 +121,20 @@ impl Scene {
     /// Bounds of all meshes in world space, floors included; empty when there is no vertex.
     pub fn bounds(&self) -> Bounds {
         self.meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union)
+    }
+
+    /// The light for what is about one light: the first.
+    ///
+    /// # Errors
+    /// [`NoLight`].
+    pub fn first_light(&self) -> Result<&SceneLight, NoLight> {
+        self.lights.first().ok_or(NoLight)
+    }
+
+    /// What a luminance of 1 cd/m^2 is in the picture, where 1 is white; follows from
+    /// [`exposure_ev100`](Self::exposure_ev100).
+    pub fn exposure(&self) -> f64 {
+        (1.2 * self.exposure_ev100.exp2()).recip()
     }
 
     /// Gives the picture another size. A narrower one keeps what is seen from side to side, so it opens upwards.

@@ -32,10 +32,11 @@
 //! | Key | Value | Default |
 //! | --- | --- | --- |
 //! | `size` | width and height of the picture, 1 to 16384 pixels each | `[1280, 720]` |
-//! | `ambient` | light that is everywhere | `[0.16, 0.17, 0.19]` |
+//! | `exposure_ev100` | exposure value at ISO 100 of lights with an `intensity`, -64 to 64: a luminance of 1.2 * 2^EV cd/m^2 is white | `0` |
+//! | `ambient` | light that is everywhere, as bright as in the picture | `[0.16, 0.17, 0.19]` |
 //! | `background` | colour where there is no mesh | `[0.55, 0.6, 0.66]` |
 //! | `camera` | a table | must be given |
-//! | `light` | a table | must be given |
+//! | `light` | a table, or an array of 1 to 256 tables | must be given |
 //! | `shadow` | a table | the preset `medium` |
 //! | `mesh` | an array of tables | must be given |
 //!
@@ -49,12 +50,40 @@
 //! | `fov_y_degrees` | full vertical opening angle, 0.01 to 179 | `40` |
 //! | `near`, `far` | depths between which it sees | around all meshes |
 //!
-//! # `[light]`
+//! # `[light]`, `[[light]]`
+//!
+//! One light is `[light]`, several are `[[light]]` each. What is about one light, as reports are, takes the first.
 //!
 //! | Key | Value | Default |
 //! | --- | --- | --- |
 //! | `kind` | `"spot"`, `"point"` or `"directional"` | must be given |
-//! | `color` | colour times intensity | `[1, 1, 1]` |
+//! | `name` | a name for messages | the kind |
+//! | `color` | without `intensity` what it sheds, with it its tint | `[1, 1, 1]` |
+//! | `intensity` | how strong it is, 0 and up: candela, for a directional light lux | none: `color` says it |
+//! | `casts` | whether it throws shadows | `true` |
+//! | `shadow` | a table, as [`[shadow]`](#shadow) below; keys that it lacks are as there | the scene's |
+//!
+//! Without `intensity` a white surface that faces the light looks like `color` at a spot's target, at half the `far` of a
+//! point light, and anywhere under a directional light; nearer it is brighter. So a scene looks alike in any unit of length.
+//! With `intensity` world units are metres, and `exposure_ev100` says how bright the light is in the picture: a white
+//! surface under E lux has a luminance of E / pi cd/m^2. Both kinds of light may be in one scene:
+//!
+//! ```toml
+//! exposure_ev100 = 3
+//!
+//! [[light]]
+//! kind = "point"
+//! position = [1, 2, 0]
+//! color = [1, 0.7, 0.4]
+//! intensity = 120
+//! range = 6
+//!
+//! [[light]]
+//! kind = "directional"
+//! towards_light = [1, 3, 2]
+//! color = [0.1, 0.12, 0.2]
+//! shadow = { technique = "gaussian-pcf", map_size = 2048 }
+//! ```
 //!
 //! A spot light has:
 //!
@@ -63,7 +92,9 @@
 //! | `position` | where it is | must be given |
 //! | `target` | what it shines at | must be given |
 //! | `cone_angle_degrees` | full opening angle, 0.01 to 179 | around all meshes, at most 130 |
+//! | `inner_cone_angle_degrees` | full angle within which it is equally bright, 0 to the cone's | a soft rim, see [`SceneLight`](crate::SceneLight::inner_cone_angle) |
 //! | `radius` | radius of the disk that shines, 0 and up | `0` |
+//! | `range` | distance at which its light ends, more than 0 | it never does |
 //! | `near`, `far` | depths between which it casts and is received | around all meshes |
 //!
 //! A point light, which shines in all directions, has:
@@ -72,6 +103,7 @@
 //! | --- | --- | --- |
 //! | `position` | where it is | must be given |
 //! | `radius` | radius of the sphere that shines, 0 and up | `0` |
+//! | `range` | distance at which its light ends, more than 0 | it never does |
 //! | `near`, `far` | depths, along the nearest axis of the world, between which it casts and is received | around all meshes |
 //!
 //! A directional light has:
@@ -85,6 +117,8 @@
 //! | `angular_radius_degrees` | angular radius of the disk that shines, 0 to less than 90 | `0.27`, the sun's |
 //!
 //! # `[shadow]`
+//!
+//! How the shadows of all lights are made, but for what a light's own `shadow` says.
 //!
 //! | Key | Value | Default |
 //! | --- | --- | --- |

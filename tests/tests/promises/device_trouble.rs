@@ -261,17 +261,18 @@ fn the_renderer_tells_a_lost_device() -> Outcome {
     let scene = small_scene()?;
     let gpu = RenderGpu::open().map_err(text)?;
     let mut renderer = Renderer::new(gpu.clone(), &scene, &ShadowOptions::default()).map_err(text)?;
-    renderer.draw_complete(&scene.light).map_err(text)?;
-    let mut contestant = Judge::new(gpu.clone(), &scene).map_err(text)?.contestant(&scene.shadow).map_err(text)?;
-    contestant.draw(&scene.light).map_err(text)?;
+    renderer.draw_complete(&scene.lights[0].light).map_err(text)?;
+    let mut contestant =
+        Judge::new(gpu.clone(), &scene).map_err(text)?.contestant(&scene.lights[0].shadow).map_err(text)?;
+    contestant.draw(&scene.lights[0].light).map_err(text)?;
     gpu.device.destroy();
 
     let told = [
-        ("draw", renderer.draw_complete(&scene.light).map_err(text)),
+        ("draw", renderer.draw_complete(&scene.lights[0].light).map_err(text)),
         ("read a picture", renderer.picture().map(|_| ()).map_err(text)),
         ("measure", renderer.measurements().map(|_| ()).map_err(text)),
         ("view", renderer.views().map(|_| ()).map_err(text)),
-        ("judge", contestant.draw(&scene.light).map(|_| ()).map_err(text)),
+        ("judge", contestant.draw(&scene.lights[0].light).map(|_| ()).map_err(text)),
         ("read visibility", contestant.visibility().map(|_| ()).map_err(text)),
         ("upload", Renderer::new(gpu.clone(), &scene, &ShadowOptions::default()).map(|_| ()).map_err(text)),
         ("make a judge", Judge::new(gpu.clone(), &scene).map(|_| ()).map_err(text)),
@@ -297,7 +298,7 @@ fn pictures_need_no_more_than_the_defaults() -> Outcome {
     }
     let picture = |gpu: RenderGpu| -> Result<_, String> {
         let mut renderer = Renderer::new(gpu, &scene, &ShadowOptions::default()).map_err(text)?;
-        renderer.draw_complete(&scene.light).map_err(text)?;
+        renderer.draw_complete(&scene.lights[0].light).map_err(text)?;
         renderer.views().map_err(text)?;
         renderer.measurements().map_err(text)?;
         renderer.picture().map_err(text)
@@ -306,7 +307,7 @@ fn pictures_need_no_more_than_the_defaults() -> Outcome {
     let full = picture(RenderGpu::open().map_err(text)?)?;
     compare_images("defaults", &full, &picture(basic.clone())?, tolerance)?;
     let judge = Judge::new(basic, &scene).map_err(text)?;
-    judge.contestant(&scene.shadow).map_err(text)?.draw(&scene.light).map_err(text)?;
+    judge.contestant(&scene.lights[0].shadow).map_err(text)?.draw(&scene.lights[0].light).map_err(text)?;
     let too_large =
         ShadowOptions { settings: ShadowSettings { map_size: 16_384, ..Default::default() }, ..Default::default() };
     match Renderer::new(RenderGpu::open_with_defaults().map_err(text)?, &scene, &too_large).map(|_| ()) {

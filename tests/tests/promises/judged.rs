@@ -66,7 +66,7 @@ fn receivers(scene: &Scene) -> Result<(RayCaster, Receivers), String> {
 
 /// Every technique, with small maps.
 fn techniques(scene: &Scene) -> Vec<ShadowSettings> {
-    let settings = ShadowSettings { map_size: MAP_SIZE, ..scene.shadow };
+    let settings = ShadowSettings { map_size: MAP_SIZE, ..scene.lights[0].shadow };
     let of_name = |name: &str| ShadowSettings { technique: name.parse().expect("it is listed"), ..settings };
     Technique::NAMES.map(of_name).to_vec()
 }
@@ -138,7 +138,7 @@ fn one_sample_renderer(scene: &Scene, settings: &ShadowSettings) -> Result<Rende
     gpu.sample_count = 1;
     let options = ShadowOptions { settings: *settings, ..ShadowOptions::default() };
     let mut renderer = Renderer::new(gpu, scene, &options).map_err(text)?;
-    renderer.draw_complete(&scene.light).map_err(text)?;
+    renderer.draw_complete(&scene.lights[0].light).map_err(text)?;
     Ok(renderer)
 }
 
@@ -164,7 +164,7 @@ fn visibility_is_what_the_picture_shows() -> Outcome {
             let views = renderer.views().map_err(text)?;
             let view = views.iter().find(|view| view.name == "visibility").ok_or("there is such a view")?;
             let mut contestant = judge_of_scene.contestant(&settings).map_err(text)?;
-            contestant.draw(&scene.light).map_err(text)?;
+            contestant.draw(&scene.lights[0].light).map_err(text)?;
             let visibility = contestant.visibility().map_err(text)?;
             let what = format!("{name}, {}", settings.technique);
             compare_images(&what, &view.picture, &grey_picture(&visibility), TOLERANCE)?;
@@ -173,7 +173,7 @@ fn visibility_is_what_the_picture_shows() -> Outcome {
             }
 
             // The same of another light is found to differ.
-            contestant.draw(&contrejour_scene::orbit(&scene.light, 1, 60)).map_err(text)?;
+            contestant.draw(&contrejour_scene::orbit(&scene.lights[0].light, 1, 60)).map_err(text)?;
             let other = grey_picture(&contestant.visibility().map_err(text)?);
             if compare_images(&what, &view.picture, &other, TOLERANCE).is_ok() {
                 return Err(format!("{what}: another light's visibility passes"));
@@ -183,7 +183,7 @@ fn visibility_is_what_the_picture_shows() -> Outcome {
         // What receives nothing is lit.
         scene.meshes.iter_mut().for_each(|placed| placed.receives = false);
         let mut contestant = judge(&scene)?.contestant(&techniques(&scene)[0]).map_err(text)?;
-        contestant.draw(&scene.light).map_err(text)?;
+        contestant.draw(&scene.lights[0].light).map_err(text)?;
         if contestant.visibility().map_err(text)?.iter().any(|&value| value != 1.0) {
             return Err(format!("{name}: what receives no shadow has one"));
         }
@@ -200,9 +200,9 @@ fn composing_gives_the_picture() -> Outcome {
         for settings in techniques(&scene) {
             let expected = one_sample_renderer(&scene, &settings)?.picture().map_err(text)?;
             let mut contestant = judge.contestant(&settings).map_err(text)?;
-            contestant.draw(&scene.light).map_err(text)?;
+            contestant.draw(&scene.lights[0].light).map_err(text)?;
             let visibility = contestant.visibility().map_err(text)?;
-            let compose = |visibility: &[f32]| judge.compose(&scene.light, visibility).map_err(text);
+            let compose = |visibility: &[f32]| judge.compose(&scene.lights[0].light, visibility).map_err(text);
             let what = format!("{name}, {}", settings.technique);
             compare_images(&what, &expected, &compose(&visibility)?, TOLERANCE)?;
 
@@ -235,14 +235,14 @@ fn what_cannot_be_composed_is_told() -> Outcome {
     let scene = scene("boxes")?;
     let judge = judge(&scene)?;
     let mut visibility = vec![1.0; (SIZE[0] * SIZE[1]) as usize];
-    judge.compose(&scene.light, &visibility).map_err(text)?;
+    judge.compose(&scene.lights[0].light, &visibility).map_err(text)?;
     visibility[SIZE[0] as usize + 7] = f32::NAN;
-    match judge.compose(&scene.light, &visibility) {
+    match judge.compose(&scene.lights[0].light, &visibility) {
         Err(ComposeError::NotFinite { x: 7, y: 1, value }) if value.is_nan() => {}
         other => return Err(format!("{other:?} for a NaN")),
     }
     visibility.pop();
-    match judge.compose(&scene.light, &visibility) {
+    match judge.compose(&scene.lights[0].light, &visibility) {
         Err(ComposeError::Count { values, width: 160, height: 120 }) if values == visibility.len() => Ok(()),
         other => Err(format!("{other:?} for a missing pixel")),
     }
@@ -256,7 +256,7 @@ fn a_rocked_light_does_all_the_work() -> Outcome {
         for settings in techniques(&scene) {
             let mut contestant = judge.contestant(&settings).map_err(text)?;
             let what = format!("{name}, {}", settings.technique);
-            let mut draw = |frame| contestant.draw(&rocked(&scene.light, frame)).map_err(text);
+            let mut draw = |frame| contestant.draw(&rocked(&scene.lights[0].light, frame)).map_err(text);
             draw(0)?;
             let still = draw(0)?;
             if !still.is_unchanged {
@@ -297,9 +297,9 @@ fn contestants_do_not_touch_each_other() -> Outcome {
             techniques(&scene).iter().map(|settings| judge.contestant(settings)).collect();
         let mut contestants = contestants.map_err(text)?;
         if backwards {
-            contestants.iter_mut().rev().try_for_each(|contestant| contestant.draw(&scene.light).map(|_| ()))
+            contestants.iter_mut().rev().try_for_each(|contestant| contestant.draw(&scene.lights[0].light).map(|_| ()))
         } else {
-            contestants.iter_mut().try_for_each(|contestant| contestant.draw(&scene.light).map(|_| ()))
+            contestants.iter_mut().try_for_each(|contestant| contestant.draw(&scene.lights[0].light).map(|_| ()))
         }
         .map_err(text)?;
         contestants.iter().map(|contestant| contestant.visibility().map_err(text)).collect()
@@ -332,8 +332,8 @@ fn equipment_hardly_shows() -> Outcome {
         let [baseline, best] = [judge_on(Equipment::Baseline, &scene)?, judge_on(Equipment::Best, &scene)?];
         for settings in techniques(&scene) {
             let difference = |settings_of_best: &ShadowSettings| {
-                let found = visibility(&baseline, &settings, &scene.light)?;
-                Ok::<_, String>(rmse(&found, &visibility(&best, settings_of_best, &scene.light)?))
+                let found = visibility(&baseline, &settings, &scene.lights[0].light)?;
+                Ok::<_, String>(rmse(&found, &visibility(&best, settings_of_best, &scene.lights[0].light)?))
             };
             let most = most_of_equipment(&settings.technique);
             let found = difference(&settings)?;

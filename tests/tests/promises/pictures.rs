@@ -46,12 +46,12 @@ fn picture_on(
 ) -> Result<RgbaImage, String> {
     let mut scene = scene.load().map_err(|error| error.to_string())?;
     scene.resize(SIZE);
-    let mut settings = ShadowSettings { map_size: MAP_SIZE, ..scene.shadow };
+    let mut settings = ShadowSettings { map_size: MAP_SIZE, ..scene.lights[0].shadow };
     change(&mut settings);
     let gpu = render_gpu(equipment)?;
     let options = ShadowOptions { settings, ..Default::default() };
     let mut renderer = Renderer::new(gpu, &scene, &options).map_err(|error| error.to_string())?;
-    renderer.draw_complete(&scene.light).map_err(|error| error.to_string())?;
+    renderer.draw_complete(&scene.lights[0].light).map_err(|error| error.to_string())?;
     renderer.picture().map_err(|error| error.to_string())
 }
 

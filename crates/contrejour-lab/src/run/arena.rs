@@ -58,7 +58,7 @@ impl Arena {
             &visibility_picture(subject.scene.size, &truth.visibility, &truth.compared)?,
             &folder.path(&truth_picture),
         )?;
-        let shaded = has_flip().then(|| subject.judge.compose(&subject.scene.light, &truth.visibility)).transpose()?;
+        let shaded = has_flip().then(|| subject.judge.compose(&subject.light, &truth.visibility)).transpose()?;
         let penumbra = truth.penumbra()?;
         Ok(Self { name: named.name.clone(), subject, truth, exactness, truth_picture, penumbra, shaded })
     }
@@ -67,7 +67,7 @@ impl Arena {
     /// visibility under the still light.
     pub fn judge(&self, contestant: &mut Contestant, tell: Tell) -> Result<(Errors, Vec<f32>), RunError> {
         let Self { subject, truth, .. } = self;
-        let light = &subject.scene.light;
+        let light = &subject.light;
         let mut frames = Vec::new();
         for step in 0..truth.motion.len() as u32 {
             contestant.draw(&moved(light, step))?;

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use contrejour_mesh::{ReadFileError, TopologyError};
 use contrejour_plan::LightError;
 use contrejour_render::{ComposeError, DrawError, NewContestantError, NewJudgeError, ReadError, SaveError};
-use contrejour_scene::SceneError;
 use contrejour_scene::shapes::ShapeError;
+use contrejour_scene::{NoLight, SceneError};
 use contrejour_trace::{OccluderError, TraceError};
 
 use super::contestants::EntrantsError;
@@ -91,6 +91,9 @@ pub enum RunError {
         /// Its name.
         name: &'static str,
     },
+    /// A scene has no light.
+    #[error(transparent)]
+    NoLight(#[from] NoLight),
     /// A scene of a figure is none.
     #[error(transparent)]
     Scene(#[from] SceneError),

@@ -28,11 +28,11 @@ pub(super) fn measure(
     tell(&Event::GroupBegins { scene: name, map_size, frames });
 
     let enter = |entrant: &Entrant| {
-        let settings = entrant.settings(&subject.scene.shadow, map_size);
+        let settings = entrant.settings(&subject.shadow, map_size);
         Ok((entrant.label.clone(), subject.judge.contestant(&settings)?))
     };
     let mut drawings = entrants.iter().map(enter).collect::<Result<Vec<_>, RunError>>()?;
-    let samples = take_turns(&mut drawings, &subject.scene.light, &options.effort, options.seed, tell)?;
+    let samples = take_turns(&mut drawings, &subject.light, &options.effort, options.seed, tell)?;
 
     let mut contestants = Vec::new();
     let mut visibilities = Vec::new();

@@ -67,7 +67,7 @@ fn truth_seconds(
         [(1.0, effort.truth_options(options.seed)), (positions, effort.motion_options(options.seed))]
     {
         let clock = Instant::now();
-        subject.trace(&subject.scene.light, &options, STRIDE, &|_| ())?;
+        subject.trace(&subject.light, &options, STRIDE, &|_| ())?;
         seconds += times * STRIDE as f64 * clock.elapsed().as_secs_f64();
     }
     Ok(seconds)
@@ -79,12 +79,12 @@ fn entrant_time(subject: &Subject, entrants: &[Entrant], map_size: u32) -> Resul
     let mut mean = EntrantTime::default();
     for entrant in chosen {
         let clock = Instant::now();
-        let mut drawing = subject.judge.contestant(&entrant.settings(&subject.scene.shadow, map_size))?;
-        drawing.draw(&subject.scene.light)?;
+        let mut drawing = subject.judge.contestant(&entrant.settings(&subject.shadow, map_size))?;
+        drawing.draw(&subject.light)?;
         mean.set_up += clock.elapsed().as_secs_f64() / chosen.len() as f64;
         let clock = Instant::now();
         for frame in 1..FRAMES {
-            drawing.draw(&rocked(&subject.scene.light, frame))?;
+            drawing.draw(&rocked(&subject.light, frame))?;
         }
         mean.frame += clock.elapsed().as_secs_f64() / (chosen.len() * (FRAMES - 1)) as f64;
     }

@@ -3,9 +3,9 @@
 use std::hash::{DefaultHasher, Hasher};
 
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
-use contrejour_plan::{Light, LightKind, View, views};
+use contrejour_plan::{Light, LightKind, ShadowSettings, View, views};
 use contrejour_render::{Gpu, Judge};
-use contrejour_scene::Scene;
+use contrejour_scene::{Scene, SceneLight};
 use contrejour_trace::{LightShape, OccluderMesh, Occluders, Receiver, TraceOptions, Visibility, trace};
 use glam::DVec3;
 
@@ -23,6 +23,10 @@ pub struct NamedScene {
 /// A scene on the device and in the tracer, with the points that its picture shows.
 pub(crate) struct Subject {
     pub scene: Scene,
+    /// The light that the techniques are about: the scene's first.
+    pub light: Light,
+    /// How the scene makes its shadow.
+    pub shadow: ShadowSettings,
     pub judge: Judge,
     occluders: Occluders,
     /// In local space, as everything that is traced.
@@ -37,6 +41,7 @@ impl Subject {
     pub fn new(gpu: &Gpu, named: &NamedScene, picture_size: [u32; 2]) -> Result<Self, RunError> {
         let mut scene = named.scene.clone();
         scene.resize(picture_size);
+        let SceneLight { light, shadow, .. } = *scene.first_light()?;
         let judge = Judge::new(gpu.clone(), &scene)?;
         let local = judge.local_space();
         let meshes: Vec<OccluderMesh> = scene
@@ -65,7 +70,7 @@ impl Subject {
         if receivers.is_empty() {
             return Err(RunError::NothingToCompare { scene: named.name.clone() });
         }
-        Ok(Self { scene, judge, occluders, receivers, pixels, without_area: flat.len() })
+        Ok(Self { scene, light, shadow, judge, occluders, receivers, pixels, without_area: flat.len() })
     }
 
     /// Number of pixels of its picture.
@@ -112,7 +117,7 @@ impl Subject {
 
     /// Size of the light as its kind means it: radius in metres, or angular radius in radians.
     pub fn light_size(&self) -> f64 {
-        match self.scene.light.kind {
+        match self.light.kind {
             LightKind::Spot { radius, .. } | LightKind::Point { radius, .. } => radius,
             LightKind::Directional { angular_radius, .. } | LightKind::Cascaded { angular_radius, .. } => {
                 angular_radius
@@ -136,8 +141,9 @@ impl NamedScene {
     /// A number that changes with what is seen, what casts and what shines.
     pub(super) fn fingerprint(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        let Scene { camera, light, shadow, ambient, background, meshes, .. } = &self.scene;
-        hasher.write(format!("{camera:?} {light:?} {shadow:?} {ambient:?} {background:?}").as_bytes());
+        let Scene { camera, lights, exposure_ev100, ambient, background, meshes, .. } = &self.scene;
+        let told = format!("{camera:?} {lights:?} {exposure_ev100:?} {ambient:?} {background:?}");
+        hasher.write(told.as_bytes());
         for placed in meshes {
             let (casts, receives) = (placed.casts, placed.receives);
             hasher.write(format!("{:?} {:?} {casts} {receives}", placed.world_from_object, placed.material).as_bytes());

@@ -53,7 +53,7 @@ impl SceneTruth {
             motion: Vec::new(),
             motion_compared: vec![false; pixels],
         };
-        let light = &subject.scene.light;
+        let light = &subject.light;
         let answers = subject.trace(light, &effort.truth_options(seed), 1, &progress)?;
         let in_maps = subject.in_maps(light)?;
         for ((&pixel, answer), in_maps) in subject.pixels().iter().zip(&answers).zip(in_maps) {

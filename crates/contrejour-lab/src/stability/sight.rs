@@ -7,7 +7,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use contrejour_mesh::TriangleMesh;
 use contrejour_render::Gpu;
-use contrejour_scene::{Camera, Material, MeshSource, Scene, SceneMesh};
+use contrejour_scene::{Camera, Material, MeshSource, Scene, SceneLight, SceneMesh};
 use contrejour_trace::TraceOptions;
 use image::{ImageFormat, RgbaImage};
 
@@ -76,8 +76,8 @@ fn scene(case: &Case, camera: Camera) -> Scene {
         camera,
         size: SIZE,
         meshes: case.meshes.iter().map(placed).collect(),
-        light: case.light,
-        shadow: case.settings,
+        lights: vec![SceneLight::new(case.light, case.settings)],
+        exposure_ev100: 0.0,
         ambient: Scene::DEFAULT_AMBIENT,
         background: Scene::DEFAULT_BACKGROUND,
         warnings: Vec::new(),

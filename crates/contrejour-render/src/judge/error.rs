@@ -1,5 +1,7 @@
 //! Why nothing can be judged.
 
+use contrejour_scene::NoLight;
+
 use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 use crate::gpu::DeviceFault;
 use crate::judge::TooManyFaces;
@@ -13,6 +15,9 @@ pub enum NewJudgeError {
     /// The picture is larger than the device's textures.
     #[error(transparent)]
     SizeTooLarge(#[from] SizeTooLarge),
+    /// The scene has no light.
+    #[error(transparent)]
+    NoLight(#[from] NoLight),
     /// The scene has more faces than can be numbered.
     #[error(transparent)]
     TooManyFaces(#[from] TooManyFaces),

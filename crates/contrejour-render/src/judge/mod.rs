@@ -61,7 +61,7 @@ struct JudgedScene {
     local: LocalSpace,
     casters: Casters,
     receivers: ReceiverTarget,
-    /// The scene's own light.
+    /// The scene's first light.
     light: Light,
 }
 
@@ -88,7 +88,7 @@ impl Judge {
         gpu.check()?;
         let [red, green, blue] = scene.background.map(f64::from);
         Ok(Self {
-            scene: Arc::new(JudgedScene { gpu, local, casters, receivers, light: scene.light }),
+            scene: Arc::new(JudgedScene { gpu, local, casters, receivers, light: scene.first_light()?.light }),
             first_faces,
             meshes,
             surface_layout,

@@ -9,7 +9,7 @@ use glam::{DMat4, DVec3};
 use super::camera_fit::fit_camera;
 use super::{light_depths, with_some_size};
 use crate::shapes::Shape;
-use crate::{Bounds, Material, MeshSource, Scene, SceneMesh};
+use crate::{Bounds, Material, MeshSource, Scene, SceneLight, SceneMesh};
 
 /// From the meshes towards the light: above, left, in front.
 const TOWARDS_LIGHT: DVec3 = DVec3::new(-0.46, 0.85, 0.26);
@@ -60,8 +60,8 @@ pub(super) fn on_a_floor(mut meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
         camera: fit_camera(&stage.seen_points(), &all, CAMERA_FORWARD, fov_y, aspect),
         size,
         meshes,
-        light: stage.light(&everywhere, &all),
-        shadow: ShadowSettings::default(),
+        lights: vec![SceneLight::new(stage.light(&everywhere, &all), ShadowSettings::default())],
+        exposure_ev100: 0.0,
         ambient: Scene::DEFAULT_AMBIENT,
         background: Scene::DEFAULT_BACKGROUND,
         warnings: Vec::new(),

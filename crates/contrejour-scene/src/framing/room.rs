@@ -4,7 +4,7 @@ use contrejour_plan::{Light, LightKind, ShadowSettings};
 use glam::DVec3;
 
 use super::{camera_depths, cone_angle, light_depths, with_some_size};
-use crate::{Bounds, Camera, Scene, SceneMesh};
+use crate::{Bounds, Camera, Scene, SceneLight, SceneMesh};
 
 /// Directions in which one looks from the middle.
 const LOOKS: usize = 64;
@@ -113,8 +113,8 @@ pub(super) fn seen_from_within(meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene 
         camera,
         size: Scene::DEFAULT_SIZE,
         meshes,
-        light: Light { kind, color: LAMP_COLOR },
-        shadow: ShadowSettings::default(),
+        lights: vec![SceneLight::new(Light { kind, color: LAMP_COLOR }, ShadowSettings::default())],
+        exposure_ev100: 0.0,
         ambient: Scene::DEFAULT_AMBIENT,
         background: Scene::DEFAULT_BACKGROUND,
         warnings: Vec::new(),

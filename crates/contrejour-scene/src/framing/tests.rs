@@ -30,7 +30,8 @@ fn assert_in_picture(scene: &Scene, points: &[DVec3], what: &str) {
 /// The points lie in the cone and the depths of the light, on every frame of an orbit of `frames`.
 fn assert_in_light(scene: &Scene, points: &[DVec3], frames: u32, what: &str) {
     for frame in 0..frames {
-        let LightKind::Spot { position, target, cone_angle, near, far, .. } = orbit(&scene.light, frame, frames).kind
+        let LightKind::Spot { position, target, cone_angle, near, far, .. } =
+            orbit(&scene.lights[0].light, frame, frames).kind
         else {
             panic!("{what}: a spot was asked for")
         };
@@ -46,7 +47,7 @@ fn assert_in_light(scene: &Scene, points: &[DVec3], frames: u32, what: &str) {
 
 /// Where the shadows of points fall on the height `floor_y`.
 fn shadows(scene: &Scene, points: &[DVec3], floor_y: f64) -> Vec<DVec3> {
-    let LightKind::Spot { position, .. } = scene.light.kind else { panic!("a spot was asked for") };
+    let LightKind::Spot { position, .. } = scene.lights[0].light.kind else { panic!("a spot was asked for") };
     let shadow = |point: &DVec3| position + (*point - position) * ((position.y - floor_y) / (position.y - point.y));
     points.iter().map(shadow).collect()
 }
@@ -171,7 +172,7 @@ fn a_room_has_walls_around_and_something_within() {
     let body = || MeshNode { mesh: 0, world_from_object: DMat4::from_translation(DVec3::new(1.0, 0.0, 1.0)) };
     let room = Scene::around(file(vec![hull(), body()]));
     let inside = |point: DVec3| point.cmpgt(room.bounds().min).all() && point.cmplt(room.bounds().max).all();
-    let LightKind::Spot { position, .. } = room.light.kind else { panic!("a lamp was asked for") };
+    let LightKind::Spot { position, .. } = room.lights[0].light.kind else { panic!("a lamp was asked for") };
     assert!(inside(room.camera.eye) && inside(position));
 
     assert!(!has_floor(file(vec![hull(), body()])), "a room with a box in it");

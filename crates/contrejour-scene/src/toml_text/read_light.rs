@@ -1,26 +1,29 @@
-//! The section `light`.
+//! The section `light`, or the sections of that name.
 
-use contrejour_plan::{Light, LightKind};
+use contrejour_plan::{Light, LightKind, ShadowSettings};
 use glam::DVec3;
 
 use super::read_camera::read_depths;
+use super::read_shadow::read_shadow;
 use super::section::Section;
-use super::value::{ANGULAR_RADIUS, ANY, NOT_NEGATIVE, OPENING, POSITIVE, Value};
+use super::value::{ANGULAR_RADIUS, ANY, Accepts, NOT_NEGATIVE, OPENING, POSITIVE, Value};
 use crate::framing::{cone_angle, depths_all_around, light_depths, sun_extents};
-use crate::{Bounds, Problem, SceneError};
+use crate::{Bounds, Problem, Scene, SceneError, SceneLight};
 
 const KINDS: &[&str] = &["spot", "point", "directional"];
-const SPOT_KEYS: &[&str] = &["kind", "color", "position", "target", "cone_angle_degrees", "radius", "near", "far"];
-const POINT_KEYS: &[&str] = &["kind", "color", "position", "radius", "near", "far"];
-const DIRECTIONAL_KEYS: &[&str] =
-    &["kind", "color", "towards_light", "center", "half_extent", "half_depth", "angular_radius_degrees"];
 const ALL_KEYS: &[&str] = &[
     "kind",
+    "name",
     "color",
+    "intensity",
+    "casts",
+    "shadow",
     "position",
     "target",
     "cone_angle_degrees",
+    "inner_cone_angle_degrees",
     "radius",
+    "range",
     "near",
     "far",
     "towards_light",
@@ -29,9 +32,39 @@ const ALL_KEYS: &[&str] = &[
     "half_depth",
     "angular_radius_degrees",
 ];
+/// Those of the keys that a spot has.
+const SPOT_KEYS: &[&str] = ALL_KEYS.split_at(14).0;
+const POINT_KEYS: &[&str] =
+    &["kind", "name", "color", "intensity", "casts", "shadow", "position", "radius", "range", "near", "far"];
+const DIRECTIONAL_KEYS: &[&str] = &[
+    "kind",
+    "name",
+    "color",
+    "intensity",
+    "casts",
+    "shadow",
+    "towards_light",
+    "center",
+    "half_extent",
+    "half_depth",
+    "angular_radius_degrees",
+];
 const SUN_ANGULAR_RADIUS_DEGREES: f64 = 0.27;
 
-pub(super) fn read_light(value: &Value<'_>, bounds: &Bounds) -> Result<Light, SceneError> {
+/// The lights; `shadow` is what their shadows fall back to.
+pub(super) fn read_lights(
+    value: &Value<'_>,
+    bounds: &Bounds,
+    shadow: ShadowSettings,
+) -> Result<Vec<SceneLight>, SceneError> {
+    let sections = if value.is_array() { value.tables()? } else { vec![value.clone()] };
+    if !(1..=Scene::MAX_LIGHTS).contains(&sections.len()) {
+        return Err(value.refuse(Problem::LightCount { count: sections.len() }));
+    }
+    sections.iter().map(|section| read_light(section, bounds, shadow)).collect()
+}
+
+fn read_light(value: &Value<'_>, bounds: &Bounds, shadow: ShadowSettings) -> Result<SceneLight, SceneError> {
     let kind = value.section("the light", ALL_KEYS)?.require("kind")?.name_of(KINDS)?;
     let (section, kind) = match KINDS[kind] {
         "spot" => {
@@ -51,7 +84,32 @@ pub(super) fn read_light(value: &Value<'_>, bounds: &Bounds) -> Result<Light, Sc
         }
     };
     let color = section.read_or("color", [1.0; 3], |value| value.color(NOT_NEGATIVE))?;
-    Ok(Light { kind, color })
+    let light = SceneLight::new(Light { kind, color }, shadow);
+    Ok(SceneLight {
+        name: section.read_or("name", light.name.clone(), |value| Ok(value.text()?.to_owned()))?,
+        intensity: read_option(&section, "intensity", NOT_NEGATIVE)?,
+        range: read_option(&section, "range", POSITIVE)?,
+        inner_cone_angle: read_inner_cone(&section, &light.light.kind)?,
+        casts: section.read_or("casts", true, Value::flag)?,
+        shadow: section.read_or("shadow", shadow, |value| read_shadow(value, shadow))?,
+        ..light
+    })
+}
+
+/// A number, where the section has one.
+fn read_option(section: &Section<'_>, key: &str, accepts: Accepts) -> Result<Option<f64>, SceneError> {
+    section.get(key).map(|value| value.number(accepts)).transpose()
+}
+
+fn read_inner_cone(section: &Section<'_>, kind: &LightKind) -> Result<Option<f64>, SceneError> {
+    let (Some(value), LightKind::Spot { cone_angle, .. }) = (section.get("inner_cone_angle_degrees"), kind) else {
+        return Ok(None);
+    };
+    let inner = value.number(NOT_NEGATIVE)?.to_radians();
+    if inner <= *cone_angle {
+        return Ok(Some(inner));
+    }
+    Err(value.refuse(Problem::InnerCone { inner: inner.to_degrees(), cone: cone_angle.to_degrees() }))
 }
 
 fn read_spot(section: &Section<'_>, bounds: &Bounds) -> Result<LightKind, SceneError> {

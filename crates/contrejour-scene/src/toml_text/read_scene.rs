@@ -6,14 +6,14 @@ use contrejour_plan::ShadowSettings;
 use toml::de::DeTable;
 
 use super::read_camera::read_camera;
-use super::read_light::read_light;
+use super::read_light::read_lights;
 use super::read_mesh::{LoadMeshes, MESH_KEYS, MeshReader};
 use super::read_shadow::read_shadow;
 use super::section::{Document, Section};
-use super::value::{NOT_NEGATIVE, Value};
+use super::value::{EXPOSURE, NOT_NEGATIVE, Value};
 use crate::{Bounds, Problem, Scene, SceneError, SceneMesh};
 
-const SCENE_KEYS: &[&str] = &["size", "ambient", "background", "camera", "light", "shadow", "mesh"];
+const SCENE_KEYS: &[&str] = &["size", "exposure_ev100", "ambient", "background", "camera", "light", "shadow", "mesh"];
 
 pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str, load: &LoadMeshes) -> Result<Scene, SceneError> {
     let document = Document { file_name, text };
@@ -30,10 +30,12 @@ pub(crate) fn read_scene(text: &str, base_dir: &Path, file_name: &str, load: &Lo
     }
     let bounds = meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union);
     let color = |key, default| section.read_or(key, default, |value| value.color(NOT_NEGATIVE));
+    let shadow = ShadowSettings::default();
+    let shadow = section.read_or("shadow", shadow, |value| read_shadow(value, shadow))?;
     Ok(Scene {
         camera: read_camera(&section.require("camera")?, &bounds)?,
-        light: read_light(&section.require("light")?, &bounds)?,
-        shadow: section.read_or("shadow", ShadowSettings::default(), read_shadow)?,
+        lights: read_lights(&section.require("light")?, &bounds, shadow)?,
+        exposure_ev100: section.read_or("exposure_ev100", 0.0, |value| value.number(EXPOSURE))?,
         size: section.read_or("size", Scene::DEFAULT_SIZE, read_size)?,
         ambient: color("ambient", Scene::DEFAULT_AMBIENT)?,
         background: color("background", Scene::DEFAULT_BACKGROUND)?,

@@ -1,4 +1,4 @@
-//! The section `shadow`.
+//! The sections `shadow`: the scene's, and those of its lights.
 
 use contrejour_plan::{AlphaRemap, DepthPrecision, SettingsError, ShadowSettings, Technique};
 
@@ -33,16 +33,17 @@ const PARAMETERS: &[&str] = KEYS.split_at(9).1;
 /// The largest side of a texture that devices commonly offer.
 const MAX_MAP_SIZE: u32 = 16_384;
 
-pub(super) fn read_shadow(value: &Value<'_>) -> Result<ShadowSettings, SceneError> {
+/// The section's settings; what it does not say is as in `base`, or as in the preset that it names.
+pub(super) fn read_shadow(value: &Value<'_>, base: ShadowSettings) -> Result<ShadowSettings, SceneError> {
     let section = value.section("the shadow", KEYS)?;
-    let mut settings = section.read_or("preset", ShadowSettings::default(), |value| {
+    let mut settings = section.read_or("preset", base, |value| {
         let preset = PRESETS[value.name_of(PRESETS)?];
         ShadowSettings::preset(preset).map_err(|error| value.refuse(error.into()))
     })?;
     let technique = &mut settings.technique;
     if let Some(value) = section.get("technique") {
         let name = Technique::NAMES[value.name_of(&Technique::NAMES)?];
-        // The preset's own technique keeps what the preset set.
+        // The technique that there is keeps what is set.
         if name != technique.name() {
             *technique = name.parse().map_err(|_| value.refuse(unknown(technique, name)))?;
         }

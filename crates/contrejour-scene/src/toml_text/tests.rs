@@ -48,7 +48,8 @@ fn a_good_scene_is_read() {
     assert_eq!(scene.meshes[0].mesh.triangles.len(), 256);
     assert!(scene.meshes[0].casts && scene.meshes[0].receives);
     assert!((scene.camera.fov_y - 40_f64.to_radians()).abs() < 1e-15);
-    assert_eq!(scene.shadow, ShadowSettings::default());
+    assert_eq!(scene.lights.len(), 1);
+    assert_eq!(scene.lights[0].shadow, ShadowSettings::default());
 }
 
 #[test]
@@ -172,7 +173,7 @@ fn lights_of_all_kinds_are_read() {
         .replace("\"spot\"", "\"directional\"\nangular_radius_degrees = 90e-1")
         .replace("position = [-3, 5, 2]\ntarget = [0, 0, 0]", "towards_light = [0, 3, 0]");
     let LightKind::Directional { center, half_extent, half_depth, angular_radius, .. } =
-        read(&sun).expect("good").light.kind
+        read(&sun).expect("good").lights[0].light.kind
     else {
         panic!("a sun was asked for")
     };
@@ -182,7 +183,7 @@ fn lights_of_all_kinds_are_read() {
     let lamp = GOOD
         .replace("\"spot\"", "\"point\"\nradius = 0.3")
         .replace("position = [-3, 5, 2]\ntarget = [0, 0, 0]", "position = [0, 1, 0]");
-    let LightKind::Point { position, radius, near, far } = read(&lamp).expect("good").light.kind else {
+    let LightKind::Point { position, radius, near, far } = read(&lamp).expect("good").lights[0].light.kind else {
         panic!("a lamp was asked for")
     };
     assert_eq!((position, radius), (DVec3::Y, 0.3));
@@ -196,10 +197,13 @@ fn shadow_settings_are_read_and_checked() {
     let with = |shadow: &str| GOOD.replacen("[light]", &format!("[shadow]\n{shadow}\n\n[light]"), 1);
     let scene =
         read(&with("preset = \"high\"\nwidth_ndc = 0.08\nremap = \"off\"\nbias_slope_texels = 3")).expect("good");
-    let Technique::Smoothies(smoothies) = scene.shadow.technique else { panic!("the default are smoothies") };
+    let Technique::Smoothies(smoothies) = scene.lights[0].shadow.technique else { panic!("the default are smoothies") };
     assert_eq!((smoothies.width, smoothies.remap), (SmoothieWidth::Ndc(0.08), AlphaRemap::Off));
-    assert_eq!((scene.shadow.map_size, scene.shadow.bias.slope_texels), (2048, 3.0));
-    assert_eq!(read(&with("technique = \"shadow-map\"")).expect("good").shadow.technique, Technique::ShadowMap);
+    assert_eq!((scene.lights[0].shadow.map_size, scene.lights[0].shadow.bias.slope_texels), (2048, 3.0));
+    assert_eq!(
+        read(&with("technique = \"shadow-map\"")).expect("good").lights[0].shadow.technique,
+        Technique::ShadowMap
+    );
 
     let message = |shadow: &str| read(&with(shadow)).expect_err("must be refused").to_string();
     assert!(message("preset = \"best\"").starts_with("test.toml:8:10: `preset` is \"best\"; give one of `low`"));
@@ -211,7 +215,8 @@ fn shadow_settings_are_read_and_checked() {
     assert!(foreign.contains("give one of blocker_samples, filter_samples"), "{foreign}");
     assert!(message("technique = \"pcss\"\nfilter_samples = 0").contains("a whole number from 1 to 1024"));
     assert!(message("depth_bits = 24").contains("give 16 or 32"));
-    let pcss = read(&with("technique = \"pcss\"\nfilter_samples = 64\ndepth_bits = 16")).expect("good").shadow;
+    let pcss =
+        read(&with("technique = \"pcss\"\nfilter_samples = 64\ndepth_bits = 16")).expect("good").lights[0].shadow;
     assert_eq!(pcss.depth_precision, DepthPrecision::Bits16);
     assert!(matches!(pcss.technique, Technique::Pcss(pcss) if pcss.filter_samples == 64));
 }
@@ -220,4 +225,82 @@ fn shadow_settings_are_read_and_checked() {
 fn a_scene_file_that_is_not_there_is_an_error() {
     let error = Scene::open(Path::new("no-such-scene.toml")).expect_err("there is none");
     assert!(error.to_string().starts_with("no-such-scene.toml: cannot be read"), "{error}");
+}
+
+/// `GOOD` with other lights.
+fn with_lights(lights: &str) -> String {
+    let (before, rest) = GOOD.split_once("[light]").expect("it has one");
+    let (_, meshes) = rest.split_once("[[mesh]]").expect("it has one");
+    format!("{before}{lights}\n[[mesh]]{meshes}")
+}
+
+const SPOT: &str = "[[light]]\nkind = \"spot\"\nposition = [-3, 5, 2]\ntarget = [0, 0, 0]\n";
+const LAMP: &str = "[[light]]\nkind = \"point\"\nposition = [0, 2, 0]\n";
+const SUN: &str = "[[light]]\nkind = \"directional\"\ntowards_light = [0, 1, 0]\n";
+
+#[test]
+fn many_lights_are_read_each_with_its_own() {
+    let text = with_lights(&format!(
+        "[shadow]\nmap_size = 256\nbias_slope_texels = 3\n
+        {SPOT}cone_angle_degrees = 60\ninner_cone_angle_degrees = 45\nname = \"key\"
+        [light.shadow]\nmap_size = 2048
+        {LAMP}color = [1, 0.5, 0]\nintensity = 120\nrange = 6\nshadow = {{ technique = \"pcss\", preset = \"high\" }}
+        {SUN}casts = false"
+    ));
+    let scene = read(&format!("exposure_ev100 = 3\n{text}")).unwrap_or_else(|error| panic!("{error}"));
+    let [spot, lamp, sun] = &scene.lights[..] else { panic!("there are three") };
+    assert_eq!((spot.name.as_str(), lamp.name.as_str(), sun.name.as_str()), ("key", "point", "directional"));
+    assert!((spot.inner_cone_angle.expect("it was given") - 45_f64.to_radians()).abs() < 1e-15);
+    assert_eq!((spot.intensity, spot.range, lamp.intensity, lamp.range), (None, None, Some(120.0), Some(6.0)));
+    assert_eq!((lamp.light.color, sun.light.color), ([1.0, 0.5, 0.0], [1.0; 3]));
+    assert_eq!((spot.casts, lamp.casts, sun.casts), (true, true, false));
+    assert_eq!((spot.shadow.map_size, spot.shadow.bias.slope_texels), (2048, 3.0), "the other keys are the scene's");
+    assert!(matches!(lamp.shadow.technique, Technique::Pcss(_)), "{:?}", lamp.shadow);
+    assert_eq!((lamp.shadow.map_size, sun.shadow.map_size), (2048, 256), "a preset comes before the scene's keys");
+    assert!((scene.exposure() - 1.0 / 9.6).abs() < 1e-12, "{}", scene.exposure());
+}
+
+#[test]
+fn mistakes_in_one_of_many_lights_have_their_line() {
+    let refused = |lights: &str, line: usize, words: &str| {
+        let SceneError::InFile { place, problem } = read(&with_lights(lights)).expect_err("must be refused") else {
+            panic!("{lights} is refused where it stands")
+        };
+        let message = format!("{place}: {problem}");
+        assert!(place.line == line && message.contains(words), "{message}");
+    };
+    refused(&format!("{SPOT}{LAMP}target = [0, 0, 0]"), 14, "a point light has no key `target`");
+    refused(&format!("{SPOT}{SUN}range = 3"), 14, "a directional light has no key `range`");
+    refused(&format!("{SPOT}{LAMP}inner_cone_angle_degrees = 3"), 14, "has no key `inner_cone_angle_degrees`");
+    refused(&format!("{SPOT}{LAMP}intensity = -1"), 14, "`intensity` is -1; give a number from 0");
+    refused(&format!("{SPOT}{LAMP}range = 0"), 14, "`range` is 0");
+    refused(&format!("{SPOT}{LAMP}[light.shadow]\nmap_size = 0"), 15, "a shadow map of 0 texels");
+    refused(&format!("{SPOT}{LAMP}casts = 0"), 14, "give true or false");
+    let inner = "cone_angle_degrees = 40\ninner_cone_angle_degrees = 50";
+    refused(&format!("{SPOT}{inner}"), 12, "`inner_cone_angle_degrees` is 50, and the cone's angle is 40");
+    assert_refused("size", "exposure_ev100 = 65\nsize", 1, 18, "an exposure value from -64 to 64");
+    let many = SUN.repeat(Scene::MAX_LIGHTS + 1);
+    assert!(read(&with_lights(&many)).expect_err("too many").to_string().contains("257 lights; give 1 to 256"));
+    let given = |lights: &str| {
+        let error =
+            read(&with_lights("").replacen("size", &format!("{lights}\nsize"), 1)).expect_err("must be refused");
+        error.to_string()
+    };
+    assert!(
+        given("light = []").starts_with("test.toml:1:9: there are 0 lights; give 1 to 256"),
+        "{}",
+        given("light = []")
+    );
+    assert!(given("light = 3").contains("`light` is a whole number; give a table"), "{}", given("light = 3"));
+    assert!(given("light = [3]").contains("`light` is a whole number; give a table"), "{}", given("light = [3]"));
+}
+
+#[test]
+fn the_documented_lights_are_lights() {
+    let page = include_str!("../scene_format.rs");
+    let example = page.split("```").nth(3).expect("the page has a second example");
+    let text = example.trim_start_matches("toml").replace("//! ", "").replace("//!", "");
+    let (exposure, lights) = text.trim().split_once('\n').expect("it has lines");
+    let scene = read(&format!("{exposure}\n{}", with_lights(lights))).expect("the example is good");
+    assert_eq!((scene.lights.len(), scene.lights[1].shadow.map_size), (2, 2048));
 }

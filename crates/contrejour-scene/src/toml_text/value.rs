@@ -4,7 +4,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::section::{Document, Section};
-use crate::{Problem, SceneError};
+use crate::{Problem, Scene, SceneError};
 
 /// The largest number that a scene may have: its square still counts in `f32`.
 pub(super) const LARGEST: f64 = 1e15;
@@ -34,6 +34,10 @@ pub(super) const OPENING: Accepts =
 /// Angular radii, in degrees.
 pub(super) const ANGULAR_RADIUS: Accepts =
     Accepts { test: |value| (0.0..90.0).contains(&value), says: "degrees from 0 to less than 90" };
+
+/// Exposure values.
+pub(super) const EXPOSURE: Accepts =
+    Accepts { test: |value| value.abs() <= Scene::MAX_EXPOSURE_EV100, says: "an exposure value from -64 to 64" };
 
 /// A value and the key it belongs to.
 #[derive(Clone)]
@@ -119,8 +123,13 @@ impl<'t> Value<'t> {
 
     /// An array of tables of which all keys are in `known`.
     pub fn sections(&self, name: &str, known: &'static [&'static str]) -> Result<Vec<Section<'t>>, SceneError> {
+        self.tables()?.iter().map(|item| item.section(name, known)).collect()
+    }
+
+    /// The items of an array of tables.
+    pub fn tables(&self) -> Result<Vec<Self>, SceneError> {
         let array = self.spanned.get_ref().as_array().ok_or_else(|| self.wrong_type("an array of tables"))?;
-        array.iter().map(|item| self.item(item).section(name, known)).collect()
+        Ok(array.iter().map(|item| self.item(item)).collect())
     }
 
     /// Which of the `known` names it is, as an index.

@@ -70,7 +70,7 @@ impl JudgedScene {
         let receivers = judge.receivers().map_err(text_of)?;
         let local = judge.local_space();
         let seen_from = scene.camera.eye;
-        let light = towards(&scene.light);
+        let light = towards(&scene.lights[0].light);
         let mut listed = Vec::new();
         for (pixel, receiver) in receivers.points.iter().enumerate() {
             let Some(receiver) = receiver else { continue };
@@ -84,7 +84,7 @@ impl JudgedScene {
     }
 
     pub fn light(&self) -> &Light {
-        &self.scene.light
+        &self.scene.lights[0].light
     }
 
     /// Keeps the receivers of the scene's first mesh.
@@ -118,7 +118,7 @@ impl JudgedScene {
     /// As [`visibility`](Self::visibility), with the technique itself: its maps are still there.
     pub fn drawn(&self, settings: &ShadowSettings) -> Result<(Vec<f64>, Contestant), String> {
         let mut contestant = self.judge.contestant(settings).map_err(text_of)?;
-        contestant.draw(&self.scene.light).map_err(text_of)?;
+        contestant.draw(&self.scene.lights[0].light).map_err(text_of)?;
         let visibility = contestant.visibility().map_err(text_of)?;
         Ok((self.receivers.iter().map(|(pixel, _)| f64::from(visibility[*pixel])).collect(), contestant))
     }

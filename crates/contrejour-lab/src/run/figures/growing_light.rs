@@ -55,8 +55,10 @@ fn under(lab: &Lab, radius: f64) -> Result<Under, RunError> {
 }
 
 fn with_radius(mut scene: Scene, new_radius: f64) -> Scene {
-    if let LightKind::Spot { radius, .. } = &mut scene.light.kind {
-        *radius = new_radius;
+    for light in &mut scene.lights {
+        if let LightKind::Spot { radius, .. } = &mut light.light.kind {
+            *radius = new_radius;
+        }
     }
     scene
 }

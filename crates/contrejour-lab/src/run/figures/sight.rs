@@ -51,13 +51,13 @@ impl Sight {
 
     /// The scene's own shadow settings.
     pub fn shadow(&self) -> &ShadowSettings {
-        &self.subject.scene.shadow
+        &self.subject.shadow
     }
 
     /// The visibility that shadows with these settings give.
     pub fn visibility(&self, settings: &ShadowSettings) -> Result<Vec<f32>, RunError> {
         let mut contestant = self.subject.judge.contestant(settings)?;
-        contestant.draw(&self.subject.scene.light)?;
+        contestant.draw(&self.subject.light)?;
         Ok(contestant.visibility()?)
     }
 
@@ -69,7 +69,7 @@ impl Sight {
 
     /// The shaded picture.
     pub fn shaded(&self, visibility: &[f32]) -> Result<RgbaImage, RunError> {
-        Ok(self.subject.judge.compose(&self.subject.scene.light, visibility)?)
+        Ok(self.subject.judge.compose(&self.subject.light, visibility)?)
     }
 
     /// Visibility as grey, where it is compared.

@@ -17,11 +17,11 @@ pub(super) fn turns(
     effort: &Effort,
 ) -> Result<Vec<Cost>, RunError> {
     let enter = |method: &Method| {
-        let settings = method.settings(&subject.scene.shadow, map_size);
+        let settings = method.settings(&subject.shadow, map_size);
         Ok((method.label.to_owned(), subject.judge.contestant(&settings)?))
     };
     let mut drawings = methods.iter().map(enter).collect::<Result<Vec<_>, RunError>>()?;
-    let samples = take_turns(&mut drawings, &subject.scene.light, effort, lab.options.seed, lab.tell)?;
+    let samples = take_turns(&mut drawings, &subject.light, effort, lab.options.seed, lab.tell)?;
     let costs = samples.iter().zip(&drawings);
     costs.map(|(samples, (_, drawing))| samples.cost(drawing, lab.gpu.is_software())).collect()
 }

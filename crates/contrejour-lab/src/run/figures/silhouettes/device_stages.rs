@@ -41,7 +41,7 @@ struct StagesAlone {
 
 impl DeviceStages {
     pub fn new(gpu: &Gpu, mesh: &LoneMesh) -> Result<Self, RunError> {
-        let settings = THIN.settings(&mesh.scene.shadow, MAP_SIZE);
+        let settings = THIN.settings(&mesh.shadow, MAP_SIZE);
         let clock = if has_clock(gpu) {
             let mut scene = mesh.scene.clone();
             scene.resize([16, 16]);
@@ -49,7 +49,7 @@ impl DeviceStages {
         } else {
             Clock::Wall(Box::new(StagesAlone::new(gpu, mesh, &settings)?))
         };
-        Ok(Self { light: mesh.scene.light, clock, frames: 0 })
+        Ok(Self { light: mesh.light, clock, frames: 0 })
     }
 
     /// Time of the stages of one more frame. Unit: milliseconds.
@@ -83,7 +83,7 @@ impl StagesAlone {
         let handle = shadows.add_mesh(Arc::clone(&mesh.topology)).map_err(CastShadowsError::from)?;
         let caster = CasterInput { mesh: handle, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
         shadows.add_caster(&caster).map_err(CastShadowsError::from)?;
-        let light = shadows.add_light(&gpu.device, &mesh.scene.light, &options).map_err(CastShadowsError::from)?;
+        let light = shadows.add_light(&gpu.device, &mesh.light, &options).map_err(CastShadowsError::from)?;
         Ok(Self { gpu: gpu.clone(), shadows, light })
     }
 

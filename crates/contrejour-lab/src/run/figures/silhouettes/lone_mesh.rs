@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh};
-use contrejour_plan::Light;
+use contrejour_plan::{Light, ShadowSettings};
 use contrejour_scene::shapes::Shape;
-use contrejour_scene::{MeshSource, Scene};
+use contrejour_scene::{MeshSource, Scene, SceneLight};
 use glam::DMat4;
 
 use super::super::super::error::RunError;
@@ -19,6 +19,8 @@ pub(super) const MAP_SIZE: u32 = 1024;
 pub(in super::super) struct LoneMesh {
     /// A scene with this mesh and no floor.
     pub scene: Scene,
+    pub light: Light,
+    pub shadow: ShadowSettings,
     pub topology: Arc<TopologyAwareMesh>,
 }
 
@@ -28,7 +30,8 @@ impl LoneMesh {
         let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())?;
         let mut scene = Scene::around(MeshFile::single(mesh, Vec::new()));
         scene.meshes.retain(|placed| placed.source == MeshSource::Given);
-        Ok(Self { scene, topology: Arc::new(topology) })
+        let SceneLight { light, shadow, .. } = *scene.first_light()?;
+        Ok(Self { scene, light, shadow, topology: Arc::new(topology) })
     }
 
     /// A torus of about that many faces, whose triangles are about as long as they are wide.
@@ -39,7 +42,7 @@ impl LoneMesh {
 
     /// The mesh under a light, for the twins of the stages.
     pub fn mirror_frame(&self, light: &Light) -> Result<MirrorFrame<'_>, RunError> {
-        let settings = THIN.settings(&self.scene.shadow, MAP_SIZE);
+        let settings = THIN.settings(&self.shadow, MAP_SIZE);
         Ok(MirrorFrame::new(&[(&self.topology, DMat4::IDENTITY)], light, &settings)?)
     }
 

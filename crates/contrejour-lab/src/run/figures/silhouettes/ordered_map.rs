@@ -40,7 +40,7 @@ mod tests {
     /// Silhouettes of a torus by the map and by the stages' twins; the map sees the given faces.
     fn both_ways(faces: impl FnOnce(&[Face]) -> Vec<Face>) -> [BTreeMap<[u32; 2], i32>; 2] {
         let torus = LoneMesh::torus(2000).expect("a torus");
-        let light = torus.scene.light;
+        let light = torus.light;
         let view = views(&light).expect("a good light")[0];
         let map = ordered_map_silhouette(&torus.topology.positions, &faces(&torus.topology.faces), view.light_world);
         let twins = torus.mirror_frame(&light).expect("a frame").run().silhouettes;

@@ -62,7 +62,7 @@ pub(in super::super) fn make(lab: &Lab) -> Result<Figure, RunError> {
 fn point(mesh: &LoneMesh) -> Result<[f64; 2], RunError> {
     let mut edges = 0.0;
     for step in 0..LIGHTS {
-        let frame = mesh.mirror_frame(&on_sphere(&mesh.scene.light, step))?;
+        let frame = mesh.mirror_frame(&on_sphere(&mesh.light, step))?;
         edges += f64::from(frame.run().counters.silhouette_edges);
     }
     Ok([mesh.faces(), edges / f64::from(LIGHTS)])
@@ -112,8 +112,8 @@ mod tests {
             LightKind::Point { position, .. } => position,
             LightKind::Directional { towards_light, .. } | LightKind::Cascaded { towards_light, .. } => towards_light,
         };
-        let distance = of(&torus.scene.light).length();
-        let offsets: Vec<DVec3> = (0..LIGHTS).map(|step| of(&on_sphere(&torus.scene.light, step))).collect();
+        let distance = of(&torus.light).length();
+        let offsets: Vec<DVec3> = (0..LIGHTS).map(|step| of(&on_sphere(&torus.light, step))).collect();
         assert!(offsets.iter().all(|offset| (offset.length() / distance - 1.0).abs() < 1e-9));
         // Their middle is the target; that of lights on one side would not be.
         let middle = |offsets: &[DVec3]| offsets.iter().sum::<DVec3>().length() / (offsets.len() as f64 * distance);

@@ -56,7 +56,7 @@ pub(in super::super) fn make(lab: &Lab) -> Result<Figure, RunError> {
 
 /// Times of all ways, which take turns.
 fn timings(lab: &Lab, torus: &LoneMesh, rounds: usize) -> Result<[Timing; 3], RunError> {
-    let light = torus.scene.light;
+    let light = torus.light;
     let light_object = views(&light)?[0].light_world;
     let mut device = DeviceStages::new(lab.gpu, torus)?;
     let mirror = torus.mirror_frame(&light)?;
