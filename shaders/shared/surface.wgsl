@@ -2,17 +2,24 @@
 //
 // Local space is the world, moved and scaled so that what the eye looks at lies near 1.
 
+struct SurfaceLight {
+    // Position and 1, or direction towards the light and 0.
+    place_local: vec4f,
+    // Unit axis away from the light.
+    axis_local: vec4f,
+    // Linear colour; w: its radiance on a white surface where the falloff is 1.
+    color: vec4f,
+    // x: one over the range, 0 where the light never ends; y: square of the least distance; z, w: scale and offset of the
+    // cone's falloff. Distances are local.
+    falloff: vec4f,
+}
+
+// The camera, with one of the lights.
 struct Frame {
     eye_clip_from_local: mat4x4f,
     eye_local: vec4f,
-    // Position and 1, or direction towards the light and 0.
-    light_local: vec4f,
-    // Unit axis away from the light; w: cosine of half the cone, or -2 where the light has no cone.
-    light_axis_local: vec4f,
-    // Radiance of a white surface that faces the light at its target; w: squared distance of the target, or 0 where the
-    // light does not fall off.
-    light_color: vec4f,
     ambient: vec4f,
+    light: SurfaceLight,
 }
 
 struct Surface {

@@ -1,19 +1,18 @@
-// The picture's light on a surface: Lambert with a hemisphere of ambient light, for a given visibility of the one light.
+// The picture's light on a surface: Lambert for a given visibility of one light, and a hemisphere of ambient light.
 
-// The cone's edge is soft over this part of one minus the cosine of half the cone.
-const CONE_EDGE = 0.1;
 // Ambient light from above and from below, relative to the mean.
 const SKY = 1.2;
 const GROUND = 0.8;
-// Up to here tones stay as they are, so that shadows are shown untouched; beyond, they approach 1.
-const SHOULDER = 0.7;
+// The brightest light that is added, the largest number of 16 bits.
+const BRIGHTEST_LIGHT = 65504.0;
 
 // Cosine at which light fades out. Interpolated normals are still lit where the flat faces below them no longer are;
 // without this margin those faces would show as teeth along the border between light and dark.
 const TERMINATOR = 0.12;
 
 struct ShadeVertex {
-    @builtin(position) clip: vec4f,
+    // All passes of a picture must find the same depth.
+    @builtin(position) @invariant clip: vec4f,
     // At the pixel's centre, even where that is outside the triangle: for derivatives.
     @location(0) centre_local: vec3f,
     // Inside the triangle: for everything else.
@@ -34,14 +33,19 @@ fn vertex_shade(@location(0) position: vec3f, @location(1) normal: vec3f, @locat
     );
 }
 
-// The picture's tone where the light is visible by this much; surfaces that receive no shadow always see it.
-fn shaded(vertex: ShadeVertex, face_normal: vec3f, visibility: f32) -> vec4f {
+// What the surface sends to the eye of the light where it is visible by this much.
+fn lit(vertex: ShadeVertex, face_normal: vec3f, visibility: f32) -> vec3f {
     let normal = shading_normal(vertex.normal_local, face_normal);
     let received = light_at(vertex.position_local, normal) * received_visibility(visibility);
-    let ambient = frame.ambient.rgb * mix(GROUND, SKY, 0.5 + 0.5 * normal.y);
-    return vec4f(tone_mapped(vertex.color * (received + ambient)), 1.0);
+    return min(vertex.color * received, vec3f(BRIGHTEST_LIGHT));
 }
 
+// Ambient light on a white surface.
+fn ambient_at(normal: vec3f) -> vec3f {
+    return frame.ambient.rgb * mix(GROUND, SKY, 0.5 + 0.5 * normal.y);
+}
+
+// Surfaces that receive no shadow always see the light.
 fn received_visibility(visibility: f32) -> f32 {
     return select(1.0, visibility, surface.receives_shadow == 1u);
 }
@@ -55,20 +59,14 @@ fn shading_normal(normal_local: vec3f, face_normal: vec3f) -> vec3f {
     return face_normal;
 }
 
-// Unshadowed light on a white surface: Lambert's cosine, the cone, and the inverse square of the distance.
+// Unshadowed light on a white surface: Lambert's cosine, the cone, and the falloff by distance.
 fn light_at(position_local: vec3f, normal: vec3f) -> vec3f {
-    let to_light = frame.light_local.xyz - frame.light_local.w * position_local;
-    let distance_squared = max(dot(to_light, to_light), 1e-12);
+    let to_light = frame.light.place_local.xyz - frame.light.place_local.w * position_local;
+    let distance_squared = clamp(dot(to_light, to_light), 1e-12, 1e37);
     let towards_light = to_light * inverseSqrt(distance_squared);
-    let cone_cosine = frame.light_axis_local.w;
-    let inner_cosine = cone_cosine + CONE_EDGE * (1.0 - cone_cosine);
-    let cone = smoothstep(cone_cosine, inner_cosine, dot(-towards_light, frame.light_axis_local.xyz));
-    let falloff = select(1.0, frame.light_color.w / distance_squared, frame.light_local.w == 1.0);
+    let cone = cone_falloff(dot(-towards_light, frame.light.axis_local.xyz), frame.light.falloff.z, frame.light.falloff.w);
+    let by_distance = distance_falloff(distance_squared, frame.light.falloff.x, frame.light.falloff.y);
+    let falloff = min(frame.light.color.w * select(1.0, by_distance, frame.light.place_local.w == 1.0), BRIGHTEST_LIGHT);
     let cosine = max(dot(normal, towards_light) - TERMINATOR, 0.0) / (1.0 - TERMINATOR);
-    return frame.light_color.rgb * cosine * cone * falloff;
-}
-
-fn tone_mapped(color: vec3f) -> vec3f {
-    let above = max(color - SHOULDER, vec3f(0.0));
-    return min(color, vec3f(SHOULDER)) + (1.0 - SHOULDER) * (1.0 - exp(-above / (1.0 - SHOULDER)));
+    return min(frame.light.color.rgb * (cosine * cone * falloff), vec3f(BRIGHTEST_LIGHT));
 }

@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use contrejour_gpu::ShadowOptions;
-use contrejour_plan::Light;
 use contrejour_render::{Gpu, NewRendererError, Renderer};
 use contrejour_scene::{AnimatedScene, FrameTimes, Scene, orbit};
 
@@ -22,7 +20,7 @@ pub enum Drawn {
 pub enum Sequence {
     /// One frame, in which nothing does.
     Picture,
-    /// The light goes around in so many.
+    /// The lights go around in so many.
     Orbit(u32),
     /// The model plays its animation in so many.
     Animation(u32),
@@ -45,13 +43,14 @@ impl Sequence {
         }
     }
 
-    /// The scene's light in a frame.
-    pub fn light(self, scene: &Scene, frame: u32) -> Result<Light, Failure> {
-        let light = &scene.first_light()?.light;
-        Ok(match self {
-            Self::Orbit(frames) => orbit(light, frame, frames),
-            Self::Picture | Self::Animation(_) => *light,
-        })
+    /// Moves the scene's lights to where they are in a frame: all of them orbit, each about what it aims at.
+    pub fn move_lights(self, renderer: &mut Renderer, scene: &Scene, frame: u32) -> Result<(), Failure> {
+        if let Self::Orbit(frames) = self {
+            for (index, light) in scene.lights.iter().enumerate() {
+                renderer.set_light(index, &orbit(&light.light, frame, frames))?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -79,10 +78,10 @@ impl Drawn {
         }
     }
 
-    pub fn renderer(&self, gpu: Gpu, options: &ShadowOptions) -> Result<Renderer, NewRendererError> {
+    pub fn renderer(&self, gpu: Gpu) -> Result<Renderer, NewRendererError> {
         match self {
-            Self::Still(scene) => Renderer::new(gpu, scene, options),
-            Self::Moving(animated) => Renderer::new_animated(gpu, animated, options),
+            Self::Still(scene) => Renderer::new(gpu, scene),
+            Self::Moving(animated) => Renderer::new_animated(gpu, animated),
         }
     }
 

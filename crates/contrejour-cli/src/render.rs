@@ -3,8 +3,6 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-use contrejour_gpu::ShadowOptions;
-use contrejour_plan::{Light, Outputs};
 use contrejour_render::{Gpu, Renderer, save_png};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -47,33 +45,28 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     if let Some(size) = arguments.size {
         drawn.scene_mut().resize(size);
     }
+    arguments.shadow.apply_to_lights(drawn.scene_mut())?;
     let scene = drawn.scene();
-    let options = ShadowOptions {
-        settings: arguments.shadow.applied_to(scene.first_light()?.shadow)?,
-        outputs: Outputs::Maps,
-        ..ShadowOptions::default()
-    };
-    let mut renderer = drawn.renderer(Gpu::open()?, &options)?;
+    let mut renderer = drawn.renderer(Gpu::open()?)?;
 
     let mut written = Written::default();
     match sequence.frames() {
         None => {
             let output = arguments.output.clone().unwrap_or_else(|| DEFAULT_OUTPUT.into());
-            renderer.draw_complete(&sequence.light(scene, 0)?)?;
+            renderer.draw_complete()?;
             save_png(&renderer.picture()?, &output)?;
             written.pictures.push(output);
         }
         Some(frames) => {
             let move_all = |renderer: &mut Renderer, frame| {
                 drawn.pose(renderer, sequence, frame)?;
-                sequence.light(scene, frame)
+                sequence.move_lights(renderer, scene, frame)
             };
             draw_frames(&mut renderer, frames, move_all, frame_names.as_ref(), &mut written)?;
         }
     }
     if let Some(folder) = &arguments.views {
-        let last_light = sequence.light(scene, sequence.frames().map_or(0, |frames| frames - 1))?;
-        write_views(&mut renderer, &last_light, folder, &mut written)?;
+        write_views(&mut renderer, folder, &mut written)?;
     }
     let measurements = renderer.measurements()?;
     print(&if arguments.json { json(&measurements, &written)? } else { summary(&measurements, &written) })
@@ -83,26 +76,26 @@ fn is_png(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
 }
 
-/// Every frame of a sequence; `move_all` poses the model and gives the light. Without names nothing is read back, and no
+/// Every frame of a sequence; `move_all` poses the model and moves the lights. Without names nothing is read back, and no
 /// frame is repeated.
 fn draw_frames(
     renderer: &mut Renderer,
     frames: u32,
-    move_all: impl Fn(&mut Renderer, u32) -> Result<Light, Failure>,
+    move_all: impl Fn(&mut Renderer, u32) -> Result<(), Failure>,
     names: Option<&FrameNames>,
     written: &mut Written,
 ) -> Result<(), Failure> {
     let bar = if std::io::stderr().is_terminal() { progress_bar(frames) } else { ProgressBar::hidden() };
     for frame in 0..frames {
-        let light = move_all(renderer, frame)?;
+        move_all(renderer, frame)?;
         match names {
             Some(names) => {
-                renderer.draw_complete(&light)?;
+                renderer.draw_complete()?;
                 let path = names.of(frame);
                 save_png(&renderer.picture()?, &path)?;
                 written.pictures.push(path);
             }
-            None => renderer.draw(&light)?,
+            None => renderer.draw()?,
         }
         bar.inc(1);
     }
@@ -118,10 +111,10 @@ fn progress_bar(frames: u32) -> ProgressBar {
     }
 }
 
-fn write_views(renderer: &mut Renderer, light: &Light, folder: &Path, written: &mut Written) -> Result<(), Failure> {
+fn write_views(renderer: &mut Renderer, folder: &Path, written: &mut Written) -> Result<(), Failure> {
     // A frame of a sequence that was not read back may miss something.
     if written.pictures.is_empty() {
-        renderer.draw_complete(light)?;
+        renderer.draw_complete()?;
     }
     for view in renderer.views()? {
         let path = folder.join(view.name).with_extension("png");

@@ -6,6 +6,8 @@ use contrejour_plan::{
     UnknownTechnique,
 };
 
+use contrejour_scene::Scene;
+
 use crate::values::{parse_assignment, parse_depth_bits, parse_width};
 
 /// What changes the scene's shadow settings.
@@ -47,7 +49,15 @@ pub struct ShadowArguments {
 }
 
 impl ShadowArguments {
-    /// The scene's settings with what was asked for.
+    /// Changes how the shadows of all lights of a scene are made.
+    pub fn apply_to_lights(&self, scene: &mut Scene) -> Result<(), ShadowArgumentError> {
+        for light in &mut scene.lights {
+            light.shadow = self.applied_to(light.shadow)?;
+        }
+        Ok(())
+    }
+
+    /// A light's settings with what was asked for.
     pub fn applied_to(&self, scene: ShadowSettings) -> Result<ShadowSettings, ShadowArgumentError> {
         let mut settings = match &self.preset {
             Some(name) => ShadowSettings::preset(name)?,

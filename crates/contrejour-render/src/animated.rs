@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contrejour_gpu::{
-    AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError, Positions, ShadowOptions,
+    AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError, Positions,
 };
 use contrejour_mesh::{DeformingMesh, PartPose, PoseError};
 use contrejour_scene::AnimatedScene;
@@ -51,14 +51,14 @@ impl Renderer {
     /// # Errors
     ///
     /// [`NewRendererError`] when something does not fit on the device.
-    pub fn new_animated(gpu: Gpu, animated: &AnimatedScene, options: &ShadowOptions) -> Result<Self, NewRendererError> {
+    pub fn new_animated(gpu: Gpu, animated: &AnimatedScene) -> Result<Self, NewRendererError> {
         let new_casters = |gpu: &Gpu, local: &LocalSpace| -> Result<Casters, NewRendererError> {
             let mut casters = animated_casters(animated, local)?;
             casters.add_deforming(gpu, animated)?;
             casters.pose(gpu, animated, &animated.pose(animated.time(0)).map_err(AnimationError::from)?, local)?;
             Ok(casters)
         };
-        let mut renderer = Self::with_casters(gpu, &animated.scene, options, new_casters)?;
+        let mut renderer = Self::with_casters(gpu, &animated.scene, new_casters)?;
         renderer.pose(animated, animated.time(0))?;
         Ok(renderer)
     }
@@ -79,8 +79,8 @@ impl Renderer {
                 let normals = deforming.normals.at(&deforming.posed, &deforming.triangles);
                 (self.casters.positions(caster), normals)
             });
-            let placed = &animated.scene.meshes[index];
-            let posed = PosedDraw { placed, pose, local: &self.local, deformed };
+            let colors = &animated.scene.meshes[index].mesh.colors;
+            let posed = PosedDraw { colors, pose, local: &self.local, deformed };
             bytes += self.meshes.pose(&self.gpu, draw, &posed);
         }
         self.casters.pose_bytes += bytes;

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use contrejour_gpu::{
     AddMeshError, CasterError, CasterHandle, CasterInput, CountersError, Deformer, LightHandle, NewShadowsError,
-    PrepareError, ShadowLightError, ShadowOptions, Shadows,
+    PrepareError, ShadowLightError, ShadowOptions, Shadows, ViewChoice, VisibilityKind,
 };
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError, TriangleMesh};
-use contrejour_plan::Light;
+use contrejour_plan::{Light, Outputs, ShadowSettings};
 use contrejour_scene::{Scene, SceneMesh};
 use glam::DMat4;
 
@@ -21,6 +21,8 @@ use crate::{Gpu, LocalSpace};
 pub(crate) struct Casters {
     pub topologies: Vec<Arc<TopologyAwareMesh>>,
     pub placed: Vec<Caster>,
+    /// For each mesh of the scene, its index in `placed`, where it casts.
+    of_mesh: Vec<Option<usize>>,
     /// None where no mesh deforms.
     pub deformer: Option<Deformer>,
     /// Bytes that poses uploaded and no frame has counted yet.
@@ -80,11 +82,10 @@ pub enum PrepareShadowsError {
     Prepare(#[from] PrepareError),
 }
 
-/// The library's object with all casters and the light of a scene; its world is our local space.
+/// The library's object with all casters and lights of a scene; its world is our local space.
 #[derive(Debug)]
 pub(crate) struct CastShadows {
     pub shadows: Shadows,
-    pub light: LightHandle,
     handles: Vec<CasterHandle>,
 }
 
@@ -100,7 +101,13 @@ impl Casters {
         local: &LocalSpace,
         other_topology: impl Fn(usize) -> Option<Result<TopologyAwareMesh, TopologyError>>,
     ) -> Result<Self, CasterTopologyError> {
-        let mut casters = Self { topologies: Vec::new(), placed: Vec::new(), deformer: None, pose_bytes: 0 };
+        let mut casters = Self {
+            topologies: Vec::new(),
+            placed: Vec::new(),
+            of_mesh: vec![None; scene.meshes.len()],
+            deformer: None,
+            pose_bytes: 0,
+        };
         let mut known = HashMap::new();
         let casting = |placed: &SceneMesh| placed.casts && !placed.mesh.triangles.is_empty();
         for (index, placed) in scene.meshes.iter().enumerate().filter(|(_, placed)| casting(placed)) {
@@ -115,6 +122,7 @@ impl Casters {
                     *place.insert(casters.topologies.len() - 1)
                 }
             };
+            casters.of_mesh[index] = Some(casters.placed.len());
             casters.placed.push(Caster {
                 name: placed.name.clone(),
                 mesh,
@@ -123,6 +131,11 @@ impl Casters {
             });
         }
         Ok(casters)
+    }
+
+    /// The caster that a mesh of the scene is, where it casts.
+    pub fn of_mesh(&mut self, mesh: usize) -> Option<&mut Caster> {
+        self.placed.get_mut((*self.of_mesh.get(mesh)?)?)
     }
 
     /// The topology of a caster.
@@ -137,12 +150,8 @@ impl Casters {
 }
 
 impl CastShadows {
-    pub fn new(
-        gpu: &Gpu,
-        casters: &Casters,
-        light_local: &Light,
-        options: &ShadowOptions,
-    ) -> Result<Self, CastShadowsError> {
+    /// Without a light.
+    pub fn new(gpu: &Gpu, casters: &Casters) -> Result<Self, CastShadowsError> {
         let mut shadows = Shadows::new(&gpu.device)?;
         let meshes = casters.topologies.iter().map(|topology| shadows.add_mesh(Arc::clone(topology)));
         let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
@@ -154,17 +163,39 @@ impl CastShadows {
             })
         });
         let handles = handles.collect::<Result<_, _>>()?;
-        let light = shadows.add_light(&gpu.device, light_local, options)?;
-        Ok(Self { shadows, light, handles })
+        Ok(Self { shadows, handles })
     }
 
-    /// Prepares a frame of the casters that it was made with, where they stand now, and with the light like this.
-    pub fn prepare(&mut self, gpu: &Gpu, casters: &Casters, light_local: &Light) -> Result<(), PrepareShadowsError> {
+    /// Adds a light that casts.
+    pub fn add_light(
+        &mut self,
+        gpu: &Gpu,
+        light_local: &Light,
+        settings: &ShadowSettings,
+    ) -> Result<LightHandle, CastShadowsError> {
+        let options = ShadowOptions { settings: *settings, outputs: Outputs::Maps, ..ShadowOptions::default() };
+        Ok(self.shadows.add_light(&gpu.device, light_local, &options)?)
+    }
+
+    /// Prepares a frame of the casters that it was made with, where they stand now, and with the lights like this.
+    pub fn prepare<'a>(
+        &mut self,
+        gpu: &Gpu,
+        casters: &Casters,
+        lights_local: impl IntoIterator<Item = (LightHandle, &'a Light)>,
+    ) -> Result<(), PrepareShadowsError> {
         for (handle, caster) in self.handles.iter().zip(&casters.placed) {
             self.shadows.place_caster(*handle, &caster.local_from_object)?;
         }
-        self.shadows.set_light(self.light, light_local)?;
+        for (handle, light_local) in lights_local {
+            self.shadows.set_light(handle, light_local)?;
+        }
         Ok(self.shadows.prepare(&gpu.device, &gpu.queue)?)
+    }
+
+    /// What shapes the shader of a pass that asks for a light's visibility.
+    pub fn kind_of(&self, light: LightHandle) -> (VisibilityKind, ViewChoice) {
+        (self.shadows.visibility_kind(light), self.shadows.view_choice(light))
     }
 
     /// Waits for the submitted frames; returns whether the last one had room for everything.

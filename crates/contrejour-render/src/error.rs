@@ -1,7 +1,7 @@
 //! What can go wrong with a scene or a frame.
 
 use contrejour_gpu::CountersError;
-use contrejour_scene::NoLight;
+use contrejour_scene::SceneLightError;
 
 use crate::animated::AnimationError;
 use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
@@ -20,9 +20,9 @@ pub enum NewRendererError {
     /// The picture is larger than the device's textures.
     #[error(transparent)]
     SizeTooLarge(#[from] SizeTooLarge),
-    /// The scene has no light.
+    /// A light of the scene is out of range.
     #[error(transparent)]
-    NoLight(#[from] NoLight),
+    SceneLight(#[from] SceneLightError),
     /// A mesh does not fit.
     #[error(transparent)]
     MeshTooLarge(#[from] MeshTooLarge),
@@ -64,6 +64,17 @@ pub enum DrawError {
     /// Something could not be read back.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// The picture to draw into has another size than pictures have.
+    #[error(
+        "the picture has {}x{} pixels and {}x{} are drawn; resize the renderer first",
+        found[0], found[1], wanted[0], wanted[1]
+    )]
+    TargetSize {
+        /// Its width and height, in pixels.
+        found: [u32; 2],
+        /// Those of what is drawn.
+        wanted: [u32; 2],
+    },
     /// The buffers never became large enough.
     #[error("the frame still misses something after {MAX_REPEATS} repetitions; use a smaller mesh or a smaller map")]
     Incomplete,

@@ -1,11 +1,13 @@
 //! What a frame of a scene does, known before there is a device.
 
+use std::collections::BTreeSet;
+
 use contrejour_gpu::{mesh_facts, mesh_pieces};
 use contrejour_plan::{
-    Capacity, CasterFacts, DeviceFacts, FramePlan, LightError, ObjectBox, Outputs, PlanError, PlanInput, SceneFacts,
-    ShadowSettings, guard_ndc, views_with_guard,
+    BufferKind, Capacity, CasterFacts, DeviceFacts, FramePlan, LightError, ObjectBox, Outputs, PlanError, PlanInput,
+    SceneFacts, guard_ndc, views_with_guard,
 };
-use contrejour_scene::{NoLight, Scene};
+use contrejour_scene::{Scene, SceneLight};
 
 use crate::LocalSpace;
 use crate::casters::{CasterTopologyError, Casters};
@@ -16,9 +18,6 @@ pub enum FramePlanError {
     /// The scene's light is no light.
     #[error(transparent)]
     Light(#[from] LightError),
-    /// There is no light.
-    #[error(transparent)]
-    NoLight(#[from] NoLight),
     /// A mesh that casts has no topology.
     #[error(transparent)]
     Topology(#[from] CasterTopologyError),
@@ -27,17 +26,47 @@ pub enum FramePlanError {
     Plan(#[from] PlanError),
 }
 
-/// The plan that a first frame of a scene follows when a [`Renderer`](crate::Renderer) draws it.
+/// The plan of one light's shadow.
+#[derive(Clone, Debug)]
+pub struct LightPlan {
+    /// Its place among the scene's lights.
+    pub light: usize,
+    /// The plan. Buffers that no one light [has](contrejour_plan::BufferKind::is_of_light) are shared by all lights.
+    pub plan: FramePlan,
+}
+
+/// The plans that a first frame of a scene follows when a [`Renderer`](crate::Renderer) draws it, one for each light that
+/// casts.
 ///
 /// # Errors
 ///
 /// [`FramePlanError`] when the scene or the device does not allow a frame.
-pub fn frame_plan(scene: &Scene, settings: &ShadowSettings, device: &DeviceFacts) -> Result<FramePlan, FramePlanError> {
+pub fn frame_plans(scene: &Scene, device: &DeviceFacts) -> Result<Vec<LightPlan>, FramePlanError> {
     let local = LocalSpace::around(&scene.camera);
-    let light = local.light(&scene.first_light()?.light);
-    let views = views_with_guard(&light, guard_ndc(&light, settings))?;
-    let casters = Casters::new(scene, &local)?;
-    let facts = SceneFacts {
+    let facts = scene_facts(scene, &local, device)?;
+    let plans = |shared: &[BufferKind]| -> Result<Vec<LightPlan>, FramePlanError> {
+        let casting = scene.lights.iter().enumerate().filter(|(_, light)| light.casts);
+        let plan_of = |(index, light): (usize, &SceneLight)| {
+            let light_local = local.light(&light.light);
+            let views = views_with_guard(&light_local, guard_ndc(&light_local, &light.shadow))?;
+            let (outputs, capacity) = (Outputs::Maps, Capacity::default());
+            let settings = &light.shadow;
+            let input = PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared };
+            Ok(LightPlan { light: index, plan: FramePlan::new(&input)? })
+        };
+        casting.map(plan_of).collect()
+    };
+    // Where lights are made in different ways, all of them share what any of them needs.
+    let alone = plans(&[])?;
+    let kinds = alone.iter().flat_map(|light| &light.plan.buffers).map(|buffer| buffer.kind);
+    let shared: BTreeSet<BufferKind> = kinds.filter(|kind| !kind.is_of_light()).collect();
+    let is_alike = |light: &LightPlan| shared.iter().all(|kind| light.plan.buffer(*kind).is_some());
+    if alone.iter().all(is_alike) { Ok(alone) } else { plans(&shared.into_iter().collect::<Vec<_>>()) }
+}
+
+fn scene_facts(scene: &Scene, local: &LocalSpace, device: &DeviceFacts) -> Result<SceneFacts, CasterTopologyError> {
+    let casters = Casters::new(scene, local)?;
+    Ok(SceneFacts {
         meshes: casters.topologies.iter().map(|topology| mesh_facts(topology)).collect(),
         pieces: (casters.topologies.iter().enumerate())
             .flat_map(|(mesh, topology)| mesh_pieces(topology, mesh, device))
@@ -60,7 +89,5 @@ pub fn frame_plan(scene: &Scene, settings: &ShadowSettings, device: &DeviceFacts
             })
             .collect(),
         receivers: scene.meshes.iter().filter(|placed| !placed.casts).map(|placed| placed.name.clone()).collect(),
-    };
-    let (outputs, capacity) = (Outputs::Maps, Capacity::default());
-    Ok(FramePlan::new(&PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared: &[] })?)
+    })
 }

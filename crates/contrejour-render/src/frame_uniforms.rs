@@ -1,10 +1,10 @@
-//! What the picture's shader needs of camera and light.
+//! What the picture's shader needs of the camera, and of each light.
 
-use contrejour_plan::{Light, LightKind};
 use contrejour_scene::{Camera, Scene};
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec4};
 
 use crate::Gpu;
+use crate::surface_light::SurfaceLight;
 
 /// `Frame` in `shaders/shared/surface.wgsl`, which says what the fields mean.
 #[repr(C)]
@@ -12,77 +12,53 @@ use crate::Gpu;
 pub(crate) struct FrameUniforms {
     pub eye_clip_from_local: [f32; 16],
     pub eye_local: [f32; 4],
-    pub light_local: [f32; 4],
-    pub light_axis_local: [f32; 4],
-    pub light_color: [f32; 4],
     pub ambient: [f32; 4],
+    pub light: SurfaceLight,
 }
-
-/// Stands for "no cone": below every cosine.
-const NO_CONE: f64 = -2.0;
 
 impl FrameUniforms {
-    /// Everything but the light; the camera is in local space.
-    ///
-    /// # Exposure
-    ///
-    /// A white surface at a spot's target that faces the spot has the radiance `Light::color`, so has one that faces a point
-    /// light at half its farthest depth, and one that faces a directional light has it anywhere; 1 is white in a picture.
-    /// So a scene is equally bright at any size.
+    /// The scene's from a camera in local space.
     pub fn new(scene: &Scene, camera_local: &Camera) -> Self {
-        Self {
-            eye_clip_from_local: eye_clip_from_local(camera_local, scene.aspect()).as_mat4().to_cols_array(),
-            eye_local: extended(camera_local.eye, 1.0),
-            ambient: [scene.ambient[0], scene.ambient[1], scene.ambient[2], 0.0],
-            ..Self::default()
-        }
+        let ambient = [scene.ambient[0], scene.ambient[1], scene.ambient[2], 0.0];
+        Self { ambient, ..Self::default() }.seen_from(camera_local, scene.aspect())
     }
 
-    /// The same with another light, in local space.
-    pub fn with_light(&self, light_local: &Light) -> Self {
-        let [red, green, blue] = light_local.color;
-        match light_local.kind {
-            LightKind::Spot { position, target, cone_angle, .. } => Self {
-                light_local: extended(position, 1.0),
-                light_axis_local: extended((target - position).normalize_or_zero(), (0.5 * cone_angle).cos()),
-                light_color: [red, green, blue, position.distance_squared(target) as f32],
-                ..*self
-            },
-            LightKind::Point { position, far, .. } => Self {
-                light_local: extended(position, 1.0),
-                light_axis_local: extended(DVec3::NEG_Y, NO_CONE),
-                light_color: [red, green, blue, (0.5 * far).powi(2) as f32],
-                ..*self
-            },
-            LightKind::Directional { towards_light, .. } | LightKind::Cascaded { towards_light, .. } => {
-                let towards_light = unit(towards_light);
-                Self {
-                    light_local: extended(towards_light, 0.0),
-                    light_axis_local: extended(-towards_light, NO_CONE),
-                    light_color: [red, green, blue, 0.0],
-                    ..*self
-                }
-            }
+    /// The same from another camera, in local space; `aspect` is width over height.
+    pub fn seen_from(&self, camera_local: &Camera, aspect: f64) -> Self {
+        Self {
+            eye_clip_from_local: eye_clip_from_local(camera_local, aspect).as_mat4().to_cols_array(),
+            eye_local: camera_local.eye.extend(1.0).as_vec4().to_array(),
+            ..*self
         }
     }
 }
 
-/// The uniforms on the device, bound.
+/// The uniforms on the device, bound: a record for each light. Camera and light are one record, since Mesa's lavapipe 22.3
+/// crashes in draws of four uniform buffers, which a light's own would make.
 #[derive(Debug)]
 pub(crate) struct FrameBinding {
     buffer: wgpu::Buffer,
+    stride: u32,
     pub layout: wgpu::BindGroupLayout,
-    pub bind_group: wgpu::BindGroup,
+    bind_group: wgpu::BindGroup,
+    /// What [`upload`](Self::upload) left in the buffer.
+    uploaded: Vec<Option<FrameUniforms>>,
 }
 
 impl FrameBinding {
-    pub fn new(gpu: &Gpu) -> Self {
+    /// With room for some lights.
+    pub fn new(gpu: &Gpu, light_count: usize) -> Self {
+        let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment as usize;
+        let stride = size_of::<FrameUniforms>().next_multiple_of(alignment) as u32;
+        // Without a light there still is a camera.
+        let record_count = light_count.max(1);
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
-            size: size_of::<FrameUniforms>() as u64,
+            size: record_count as u64 * u64::from(stride),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
+        let record_size = wgpu::BufferSize::new(size_of::<FrameUniforms>() as u64);
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
             entries: &[wgpu::BindGroupLayoutEntry {
@@ -90,24 +66,43 @@ impl FrameBinding {
                 visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
                 ty: wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
+                    has_dynamic_offset: true,
+                    min_binding_size: record_size,
                 },
                 count: None,
             }],
         });
+        let record = wgpu::BufferBinding { buffer: &buffer, offset: 0, size: record_size };
         let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("frame"),
             layout: &layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(record) }],
         });
-        Self { buffer, layout, bind_group }
+        Self { buffer, stride, layout, bind_group, uploaded: vec![None; record_count] }
     }
 
-    /// Uploads camera and light; returns the number of bytes.
-    pub fn upload(&self, gpu: &Gpu, uniforms: &FrameUniforms) -> u64 {
-        gpu.queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(uniforms));
-        self.buffer.size()
+    /// Uploads what changed of camera and lights; returns the number of bytes.
+    pub fn upload(&mut self, gpu: &Gpu, uniforms: &FrameUniforms, lights: &[SurfaceLight]) -> u64 {
+        let mut bytes = 0;
+        for index in 0..self.uploaded.len() {
+            let light = lights.get(index).copied().unwrap_or_default();
+            let record = FrameUniforms { light, ..*uniforms };
+            if self.uploaded[index].replace(record) != Some(record) {
+                bytes += self.write(gpu, index, &record);
+            }
+        }
+        bytes
+    }
+
+    /// Uploads a record, whatever was there; returns the number of bytes.
+    pub fn write(&self, gpu: &Gpu, index: usize, record: &FrameUniforms) -> u64 {
+        gpu.queue.write_buffer(&self.buffer, index as u64 * u64::from(self.stride), bytemuck::bytes_of(record));
+        size_of::<FrameUniforms>() as u64
+    }
+
+    /// Binds the camera with one of the lights.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, group: u32, light: usize) {
+        pass.set_bind_group(group, &self.bind_group, &[light as u32 * self.stride]);
     }
 }
 
@@ -118,17 +113,10 @@ fn eye_clip_from_local(camera_local: &Camera, aspect: f64) -> DMat4 {
     reversed_from_clip * camera_local.clip_from_world(aspect)
 }
 
-/// A direction of any length as a unit vector; its length may not fit a square.
-fn unit(direction: DVec3) -> DVec3 {
-    (direction / direction.abs().max_element()).normalize_or_zero()
-}
-
-fn extended(vector: DVec3, w: f64) -> [f32; 4] {
-    vector.extend(w).as_vec4().to_array()
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]
@@ -139,10 +127,5 @@ mod tests {
         assert!((depth(0.5) - 1.0).abs() < 1e-12);
         assert!(depth(8.0).abs() < 1e-12);
         assert!(depth(1.0) > depth(2.0));
-    }
-
-    #[test]
-    fn a_direction_may_have_any_length() {
-        assert!(unit(DVec3::new(0.0, 3e-200, 4e-200)).abs_diff_eq(DVec3::new(0.0, 0.6, 0.8), 1e-12));
     }
 }

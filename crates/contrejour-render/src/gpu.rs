@@ -100,6 +100,20 @@ impl Gpu {
             ..Default::default()
         };
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(OpenGpuError::NoAdapter)?;
+        Self::open_on_with(&adapter, extras)
+    }
+
+    /// Opens the device of an adapter that the caller chose, such as one that can show pictures in a window, with all that
+    /// [`open`](Self::open) asks for.
+    ///
+    /// # Errors
+    ///
+    /// [`OpenGpuError`] when the device lacks a default of WebGPU.
+    pub fn open_on(adapter: &wgpu::Adapter) -> Result<Self, OpenGpuError> {
+        Self::open_on_with(adapter, Extras::All)
+    }
+
+    fn open_on_with(adapter: &wgpu::Adapter, extras: Extras) -> Result<Self, OpenGpuError> {
         let adapter_info = adapter.get_info();
         let wanted = contrejour_gpu::Shadows::optional_features() | wgpu::Features::TIMESTAMP_QUERY;
         let (optional, limits) = match extras {
@@ -120,7 +134,7 @@ impl Gpu {
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| reported.note_error(&error)));
         let lost = faults.clone();
         device.set_device_lost_callback(move |_, message| lost.note_loss(&message));
-        let sample_count = sample_count(&adapter);
+        let sample_count = sample_count(adapter);
         Ok(Self { adapter_info, sample_count, device, queue, faults })
     }
 
@@ -231,7 +245,7 @@ fn limits(adapter: &wgpu::Limits) -> wgpu::Limits {
 }
 
 fn sample_count(adapter: &wgpu::Adapter) -> u32 {
-    let formats = [crate::targets::COLOR_FORMAT, crate::targets::DEPTH_FORMAT];
+    let formats = [crate::targets::COLOR_FORMAT, crate::targets::RADIANCE_FORMAT, crate::targets::DEPTH_FORMAT];
     let all_can =
         formats.iter().all(|&format| adapter.get_texture_format_features(format).flags.sample_count_supported(4));
     if all_can { 4 } else { 1 }

@@ -1,8 +1,8 @@
 //! The small forward renderer behind the contrejour command line.
 //!
 //! [`Gpu::open`] finds a device without a window, [`Renderer`] brings a scene to it and draws it frame by frame:
-//! diffuse and ambient light on interpolated normals, the shadow of one light, four samples a pixel. It uses the
-//! library as any renderer would.
+//! diffuse and ambient light on interpolated normals, any number of lights with their shadows, four samples a pixel. It
+//! uses the library as any renderer would.
 //!
 //! [`Judge`] holds one scene for many techniques: the points that its picture shows, the visibility that each technique
 //! gives them and what that costs, and the picture that any visibility makes.
@@ -14,6 +14,7 @@ mod frame_plan;
 mod frame_uniforms;
 mod gpu;
 mod judge;
+mod light_targets;
 mod local_space;
 mod map_texels;
 mod map_views;
@@ -24,19 +25,23 @@ mod posed_normals;
 mod readback;
 mod renderer;
 mod save;
+mod scene_lights;
 mod scene_meshes;
+mod scene_pass;
 mod scene_pipeline;
 mod shaders;
 mod silhouette_lines;
 mod silhouettes;
 mod stage_timer;
+mod surface_light;
 mod targets;
+mod tone_map;
 mod views;
 
 pub use animated::AnimationError;
 pub use casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 pub use error::{DrawError, NewRendererError};
-pub use frame_plan::{FramePlanError, frame_plan};
+pub use frame_plan::{FramePlanError, LightPlan, frame_plans};
 pub use gpu::{DeviceFault, Gpu, OpenGpuError};
 pub use judge::{
     ComposeError, Contestant, FrameCost, Judge, NewContestantError, NewJudgeError, Receiver, Receivers, TooManyFaces,
@@ -48,8 +53,10 @@ pub use png::save_png;
 pub use readback::{ReadError, read_buffer, read_rows, read_texture};
 pub use renderer::Renderer;
 pub use save::{SaveError, check_folder, save_file};
+pub use scene_lights::MoveError;
 pub use scene_meshes::MeshTooLarge;
 pub use silhouettes::read_silhouettes;
 pub use stage_timer::{PassTime, StageTimer, TimedStage};
 pub use targets::SizeTooLarge;
+pub use tone_map::tone_mapped;
 pub use views::View;

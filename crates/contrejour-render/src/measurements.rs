@@ -1,6 +1,6 @@
 //! What frames cost and what they counted.
 
-use contrejour_gpu::{FrameStats, Shadows};
+use contrejour_gpu::{FilledView, FrameStats};
 use contrejour_layout::Counters;
 use contrejour_plan::BufferKind;
 
@@ -21,7 +21,8 @@ pub struct Measurements {
     pub frames_in_flight: usize,
     /// Edges of all meshes that cast.
     pub edges: u64,
-    /// Fewest, median and most silhouette edges of a frame; zeros where no frame looked for silhouettes.
+    /// Fewest, median and most silhouette edges of a frame, of all views of its lights together; zeros where no frame
+    /// looked for silhouettes. A light whose maps stand is not looked at.
     pub silhouette_edges: Spread,
     /// Stages in the order in which they first ran, and the median of each. Empty where the device has no timestamps.
     pub stages: Vec<StageCost>,
@@ -113,8 +114,9 @@ pub(crate) struct CounterLog {
     full_sheets: Vec<wgpu::Buffer>,
     sheet: Option<wgpu::Buffer>,
     entries_in_sheet: u64,
-    /// Entries of each frame: one for each page of its scene.
+    /// Entries of each frame: one for each page of its scene and each view that was filled.
     frames: Vec<usize>,
+    entries_of_frame: usize,
 }
 
 /// Counters in one buffer of the log.
@@ -123,10 +125,9 @@ const ENTRIES_PER_SHEET: u64 = 256;
 const COUNTERS_BYTES: u64 = size_of::<Counters>() as u64;
 
 impl CounterLog {
-    /// Records the copy of this frame's counters.
-    pub fn record(&mut self, gpu: &Gpu, shadows: &Shadows, encoder: &mut wgpu::CommandEncoder) {
-        let mut entries = 0;
-        for counters in shadows.buffers(BufferKind::Counters) {
+    /// Records the copy of the counters of a view that was filled in this frame.
+    pub fn record(&mut self, gpu: &Gpu, view: &FilledView<'_>, encoder: &mut wgpu::CommandEncoder) {
+        for counters in view.buffers(BufferKind::Counters) {
             if self.entries_in_sheet == ENTRIES_PER_SHEET {
                 self.full_sheets.extend(self.sheet.take());
                 self.entries_in_sheet = 0;
@@ -134,8 +135,13 @@ impl CounterLog {
             let sheet = self.sheet.get_or_insert_with(|| new_sheet(gpu));
             encoder.copy_buffer_to_buffer(counters, 0, sheet, self.entries_in_sheet * COUNTERS_BYTES, COUNTERS_BYTES);
             self.entries_in_sheet += 1;
-            entries += 1;
+            self.entries_of_frame += 1;
         }
+    }
+
+    /// Ends a frame; one that filled no view counts for none.
+    pub fn end_frame(&mut self) {
+        let entries = std::mem::take(&mut self.entries_of_frame);
         if entries > 0 {
             self.frames.push(entries);
         }

@@ -1,99 +1,139 @@
-//! The pass that draws the scene from the eye.
+//! The pass that makes a picture of what was added up.
 
-use contrejour_gpu::{ViewChoice, VisibilityKind};
+use std::collections::HashMap;
+
+use wgpu::{TextureFormat, TextureSampleType};
 
 use crate::Gpu;
-use crate::casters::CastShadows;
-use crate::frame_uniforms::{FrameBinding, FrameUniforms};
-use crate::scene_meshes::{SceneMeshes, surface_layout};
-use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, scene_pipeline};
-use crate::shaders::SHADE;
-use crate::targets::COLOR_FORMAT;
+use crate::light_targets::LightTargets;
+use crate::shaders::PICTURE;
 
-const VISIBILITY_GROUP: u32 = 2;
-
-/// What a picture shows on its surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Shading {
-    /// Light and material.
-    Lit,
-    /// Visibility of the light: black to white.
-    Visibility,
-}
-
-impl Shading {
-    fn entry_point(self) -> &'static str {
-        match self {
-            Self::Lit => "fragment_shade",
-            Self::Visibility => "fragment_show_visibility",
-        }
-    }
-}
-
-/// What shapes the shader of a pass that asks for visibility.
-pub(crate) fn kind_of(cast: &CastShadows) -> (VisibilityKind, ViewChoice) {
-    (cast.shadows.visibility_kind(cast.light), cast.shadows.view_choice(cast.light))
-}
-
-/// Bind groups and shader of the pass, for one kind of visibility.
+/// Pipelines, one for each format of a picture, and what they bind.
 #[derive(Debug)]
 pub(crate) struct PicturePass {
-    kind: (VisibilityKind, ViewChoice),
     module: wgpu::ShaderModule,
-    layout: wgpu::PipelineLayout,
-    surface_layout: wgpu::BindGroupLayout,
-    frame: FrameBinding,
+    layout: wgpu::BindGroupLayout,
+    pipeline_layout: wgpu::PipelineLayout,
+    bind_group: wgpu::BindGroup,
+    entry_point: &'static str,
+    pipelines: HashMap<TextureFormat, wgpu::RenderPipeline>,
 }
 
 impl PicturePass {
-    /// The pass for shadows that were prepared.
-    pub fn new(gpu: &Gpu, cast: &CastShadows) -> Self {
-        let CastShadows { shadows, light, .. } = cast;
-        let device = &gpu.device;
-        let wgsl = format!("{SHADE}{}", shadows.visibility_wgsl(*light, VISIBILITY_GROUP));
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("shade"),
-            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+    pub fn new(gpu: &Gpu, targets: &LightTargets) -> Self {
+        let has_samples = gpu.sample_count > 1;
+        let entry_point = if has_samples { "fragment_picture_of_samples" } else { "fragment_picture" };
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("picture"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: has_samples,
+                },
+                count: None,
+            }],
         });
-        let frame = FrameBinding::new(gpu);
-        let surface_layout = surface_layout(device);
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("shade"),
-            bind_group_layouts: &[Some(&frame.layout), Some(&surface_layout), Some(shadows.visibility_layout(*light))],
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("picture"),
+            bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
-        Self { kind: kind_of(cast), module, layout, surface_layout, frame }
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("picture"),
+            source: wgpu::ShaderSource::Wgsl(PICTURE.into()),
+        });
+        let bind_group = bind(gpu, &layout, targets);
+        Self { module, layout, pipeline_layout, bind_group, entry_point, pipelines: HashMap::new() }
     }
 
-    /// Whether the pass looks up the maps that these shadows have.
-    pub fn fits(&self, cast: &CastShadows) -> bool {
-        self.kind == kind_of(cast)
+    /// Reads other targets from now on.
+    pub fn bind_again(&mut self, gpu: &Gpu, targets: &LightTargets) {
+        self.bind_group = bind(gpu, &self.layout, targets);
     }
 
-    pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.surface_layout
+    /// Makes what a picture of this format needs and is not there.
+    pub fn prepare(&mut self, gpu: &Gpu, format: TextureFormat) {
+        let Self { module, pipeline_layout, entry_point, pipelines, .. } = self;
+        pipelines.entry(format).or_insert_with(|| pipeline(gpu, (pipeline_layout, module), entry_point, format));
     }
 
-    pub fn pipeline(&self, gpu: &Gpu, shading: Shading) -> wgpu::RenderPipeline {
-        let entry_points = EntryPoints { vertex: "vertex_shade", fragment: shading.entry_point() };
-        scene_pipeline(gpu, &self.layout, &self.module, entry_points, &[COLOR_FORMAT])
-    }
-
-    /// Uploads camera and light; returns the number of bytes.
-    pub fn upload(&self, gpu: &Gpu, uniforms: &FrameUniforms) -> u64 {
-        self.frame.upload(gpu, uniforms)
-    }
-
-    pub fn draw(
+    /// Draws into a picture of a format that was prepared, and of the targets' size.
+    pub fn encode(
         &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        pipeline: &wgpu::RenderPipeline,
-        cast: &CastShadows,
-        meshes: &SceneMeshes,
+        encoder: &mut wgpu::CommandEncoder,
+        (view, format): (&wgpu::TextureView, TextureFormat),
+        timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
+        let Some(pipeline) = self.pipelines.get(&format) else { return };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("picture"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                // Every pixel is written.
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+            })],
+            timestamp_writes,
+            ..Default::default()
+        });
         pass.set_pipeline(pipeline);
-        pass.set_bind_group(FRAME_GROUP, &self.frame.bind_group, &[]);
-        pass.set_bind_group(VISIBILITY_GROUP, cast.shadows.visibility_bind_group(cast.light), &[]);
-        meshes.draw(pass, SURFACE_GROUP);
+        pass.set_bind_group(0, &self.bind_group, &[]);
+        pass.draw(0..3, 0..1);
     }
+}
+
+fn bind(gpu: &Gpu, layout: &wgpu::BindGroupLayout, targets: &LightTargets) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("picture"),
+        layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::TextureView(targets.radiance()),
+        }],
+    })
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    (layout, module): (&wgpu::PipelineLayout, &wgpu::ShaderModule),
+    entry_point: &str,
+    format: TextureFormat,
+) -> wgpu::RenderPipeline {
+    let constants = [
+        ("encodes_srgb", f64::from(u8::from(takes_shown_numbers(format)))),
+        ("sample_count", f64::from(gpu.sample_count)),
+    ];
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("picture"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vertex_picture"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            targets: &[Some(format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// Whether numbers in a texture of this format are shown as they are: neither the format makes them sRGB, nor are they
+/// floats, which are linear.
+fn takes_shown_numbers(format: TextureFormat) -> bool {
+    let is_float =
+        matches!(format, TextureFormat::Rgba16Float | TextureFormat::Rgba32Float | TextureFormat::Rg11b10Ufloat);
+    !format.is_srgb() && !is_float
 }

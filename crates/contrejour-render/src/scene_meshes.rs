@@ -17,6 +17,8 @@ pub(crate) struct SceneMeshes {
     buffers: Vec<MeshBuffers>,
     /// For each visible mesh of the scene, its buffers.
     draws: Vec<usize>,
+    /// For each mesh of the scene, its index in `draws`, where it is visible.
+    draw_of_mesh: Vec<Option<usize>>,
     /// What is in the buffer of `surfaces`, a record for each visible mesh.
     surface_records: Vec<Surface>,
     surface_buffer: wgpu::Buffer,
@@ -70,8 +72,8 @@ pub(crate) const VERTEX_LAYOUTS: [wgpu::VertexBufferLayout<'static>; 2] = [
 
 /// A mesh in motion.
 pub(crate) struct PosedDraw<'a> {
-    /// The mesh of the scene.
-    pub placed: &'a SceneMesh,
+    /// The vertex colours of the mesh.
+    pub colors: &'a [[f32; 3]],
     pub pose: &'a PartPose,
     pub local: &'a LocalSpace,
     /// Where the positions of a mesh that deforms are, in object space, and its normals.
@@ -120,12 +122,14 @@ impl SceneMeshes {
         let mut buffers = Vec::new();
         let mut buffers_of_mesh = HashMap::new();
         let mut draws = Vec::new();
+        let mut draw_of_mesh = vec![None; scene.meshes.len()];
         let mut surface_bytes = Vec::new();
         let mut surface_records = Vec::new();
         let mut first_face = 0u32;
         let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment as usize;
         let surface_stride = size_of::<Surface>().next_multiple_of(alignment);
-        for placed in scene.meshes.iter().filter(|placed| !placed.mesh.triangles.is_empty()) {
+        let visible = |(_, placed): &(usize, &SceneMesh)| !placed.mesh.triangles.is_empty();
+        for (mesh, placed) in scene.meshes.iter().enumerate().filter(visible) {
             let index = match buffers_of_mesh.get(&Arc::as_ptr(&placed.mesh)) {
                 Some(&index) => index,
                 None => {
@@ -140,6 +144,7 @@ impl SceneMeshes {
             surface_records.push(surface);
             surface_bytes.extend_from_slice(bytemuck::bytes_of(&surface));
             surface_bytes.resize(surface_bytes.len().next_multiple_of(surface_stride), 0);
+            draw_of_mesh[mesh] = Some(draws.len());
             draws.push(index);
         }
 
@@ -159,27 +164,38 @@ impl SceneMeshes {
             }],
         });
         let surface_stride = surface_stride as u32;
-        Ok(Self { buffers, draws, surface_records, surface_buffer, surfaces, surface_stride })
+        Ok(Self { buffers, draws, draw_of_mesh, surface_records, surface_buffer, surfaces, surface_stride })
     }
 
     /// Moves a visible mesh, counted from the scene's first, and returns the bytes that it uploads. Its buffers must be its
     /// own.
     pub fn pose(&mut self, gpu: &Gpu, draw: usize, posed: &PosedDraw<'_>) -> u64 {
-        let mut bytes = size_of::<Surface>();
+        let mut bytes = 0;
         let buffers = &mut self.buffers[self.draws[draw]];
         if let Some((Positions::InBuffer { buffer, offset, .. }, normals)) = &posed.deformed {
             buffers.positions = (buffer.clone(), *offset);
             buffers.object_from_vertex = DMat4::IDENTITY;
-            let attributes = attributes(normals, &posed.placed.mesh.colors);
+            let attributes = attributes(normals, posed.colors);
             gpu.queue.write_buffer(&buffers.attributes, 0, bytemuck::cast_slice(&attributes));
             bytes += size_of_val(&attributes[..]);
         }
-        let placed = SceneMesh { world_from_object: posed.pose.world_from_object, ..posed.placed.clone() };
+        bytes += self.place_draw(gpu, draw, posed.local, &posed.pose.world_from_object);
+        bytes as u64
+    }
+
+    /// Moves a mesh of the scene, and returns the bytes that it uploads.
+    pub fn place(&mut self, gpu: &Gpu, mesh: usize, local: &LocalSpace, world_from_object: &DMat4) -> u64 {
+        let draw = self.draw_of_mesh.get(mesh).copied().flatten();
+        draw.map_or(0, |draw| self.place_draw(gpu, draw, local, world_from_object) as u64)
+    }
+
+    fn place_draw(&mut self, gpu: &Gpu, draw: usize, local: &LocalSpace, world_from_object: &DMat4) -> usize {
+        let object_from_vertex = self.buffers[self.draws[draw]].object_from_vertex;
         let surface = &mut self.surface_records[draw];
-        *surface = Surface::new(&placed, posed.local, &buffers.object_from_vertex, surface.first_face);
+        surface.place(local, world_from_object, &object_from_vertex);
         let offset = draw as u64 * u64::from(self.surface_stride);
         gpu.queue.write_buffer(&self.surface_buffer, offset, bytemuck::bytes_of(surface));
-        bytes as u64
+        size_of::<Surface>()
     }
 
     /// Draws everything; the surfaces go to bind group `surface_group`.
@@ -241,21 +257,28 @@ fn extent(mesh: &TriangleMesh) -> (DVec3, f64) {
 
 impl Surface {
     fn new(placed: &SceneMesh, local: &LocalSpace, object_from_vertex: &DMat4, first_face: u32) -> Self {
-        let local_from_vertex = local.local_from_world() * placed.world_from_object * object_from_vertex;
-        let normal_matrix = normal_matrix(DMat3::from_mat4(placed.world_from_object)).as_mat3();
-        let column = |axis: glam::Vec3| axis.extend(0.0).to_array();
         let (base_color, replaces) = match placed.material.base_color {
             Some(color) => (color, 1.0),
             None => ([0.0; 3], 0.0),
         };
-        Self {
-            local_from_vertex: local_from_vertex.as_mat4().to_cols_array(),
-            local_normal_from_object: [normal_matrix.x_axis, normal_matrix.y_axis, normal_matrix.z_axis].map(column),
+        let mut surface = Self {
+            local_from_vertex: [0.0; 16],
+            local_normal_from_object: [[0.0; 4]; 3],
             base_color: [base_color[0], base_color[1], base_color[2], replaces],
             receives_shadow: u32::from(placed.receives),
             first_face,
             padding: [0; 2],
-        }
+        };
+        surface.place(local, &placed.world_from_object, object_from_vertex);
+        surface
+    }
+
+    fn place(&mut self, local: &LocalSpace, world_from_object: &DMat4, object_from_vertex: &DMat4) {
+        let local_from_vertex = local.local_from_world() * world_from_object * object_from_vertex;
+        let normal_matrix = normal_matrix(DMat3::from_mat4(*world_from_object)).as_mat3();
+        let column = |axis: glam::Vec3| axis.extend(0.0).to_array();
+        self.local_from_vertex = local_from_vertex.as_mat4().to_cols_array();
+        self.local_normal_from_object = [normal_matrix.x_axis, normal_matrix.y_axis, normal_matrix.z_axis].map(column);
     }
 }
 

@@ -15,8 +15,7 @@ pub(crate) struct EntryPoints {
     pub fragment: &'static str,
 }
 
-/// A pipeline that draws meshes against the reversed depth buffer. Both sides are drawn: meshes may be open, and wound
-/// as they like.
+/// A pipeline that draws meshes against the reversed depth buffer, the nearest over all others.
 pub(crate) fn scene_pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
@@ -24,7 +23,20 @@ pub(crate) fn scene_pipeline(
     entry_points: EntryPoints,
     formats: &[wgpu::TextureFormat],
 ) -> wgpu::RenderPipeline {
-    let targets: Vec<_> = formats.iter().map(|&format| Some(format.into())).collect();
+    let targets: Vec<_> = formats.iter().map(|&format| format.into()).collect();
+    let depth = depth_state(wgpu::CompareFunction::GreaterEqual, true);
+    mesh_pipeline(gpu, (layout, module), entry_points, &targets, depth)
+}
+
+/// A pipeline that draws meshes. Both sides are drawn: meshes may be open, and wound as they like.
+pub(crate) fn mesh_pipeline(
+    gpu: &Gpu,
+    (layout, module): (&wgpu::PipelineLayout, &wgpu::ShaderModule),
+    entry_points: EntryPoints,
+    targets: &[wgpu::ColorTargetState],
+    depth: wgpu::DepthStencilState,
+) -> wgpu::RenderPipeline {
+    let targets: Vec<_> = targets.iter().cloned().map(Some).collect();
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(entry_points.fragment),
         layout: Some(layout),
@@ -35,7 +47,7 @@ pub(crate) fn scene_pipeline(
             buffers: &VERTEX_LAYOUTS.map(Some),
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(depth_state(wgpu::CompareFunction::GreaterEqual, true)),
+        depth_stencil: Some(depth),
         multisample: wgpu::MultisampleState { count: gpu.sample_count, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module,

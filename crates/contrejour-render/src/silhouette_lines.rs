@@ -1,4 +1,4 @@
-//! Silhouette edges drawn over a picture.
+//! Silhouette edges drawn over the light of a picture.
 
 use contrejour_layout::SilhouetteEdge;
 use glam::DVec3;
@@ -7,7 +7,7 @@ use crate::Gpu;
 use crate::casters::Casters;
 use crate::scene_pipeline::depth_state;
 use crate::shaders::SILHOUETTE_LINES;
-use crate::targets::COLOR_FORMAT;
+use crate::targets::RADIANCE_FORMAT;
 
 /// Lines and the pipelines that draw them.
 #[derive(Debug)]
@@ -124,7 +124,7 @@ fn pipeline(
         attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4],
     };
     let target = wgpu::ColorTargetState {
-        format: COLOR_FORMAT,
+        format: RADIANCE_FORMAT,
         blend: Some(wgpu::BlendState::ALPHA_BLENDING),
         write_mask: wgpu::ColorWrites::ALL,
     };

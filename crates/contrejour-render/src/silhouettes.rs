@@ -13,8 +13,17 @@ use crate::readback::{ReadError, read_buffer};
 ///
 /// [`ReadError`] when the device fails.
 pub fn read_silhouettes(gpu: &Gpu, shadows: &Shadows) -> Result<Vec<SilhouetteEdge>, ReadError> {
+    let pages = shadows.buffers(BufferKind::Counters).zip(shadows.buffers(BufferKind::Silhouettes));
+    read_pages(gpu, pages)
+}
+
+/// Reads the edges of lists that lie beside their counters, sorted; an edge that is in several of them comes several times.
+pub(crate) fn read_pages<'a>(
+    gpu: &Gpu,
+    pages: impl Iterator<Item = (&'a wgpu::Buffer, &'a wgpu::Buffer)>,
+) -> Result<Vec<SilhouetteEdge>, ReadError> {
     let mut edges = Vec::new();
-    for (counters, silhouettes) in shadows.buffers(BufferKind::Counters).zip(shadows.buffers(BufferKind::Silhouettes)) {
+    for (counters, silhouettes) in pages {
         let counters: Counters =
             bytemuck::pod_read_unaligned(&read_buffer(gpu, counters, size_of::<Counters>() as u64)?);
         let bytes = u64::from(counters.silhouette_edges) * size_of::<SilhouetteEdge>() as u64;

@@ -1,14 +1,17 @@
-//! The textures that a picture is drawn into.
+//! The textures that pictures are drawn into.
 
 use crate::Gpu;
 
 /// Format of pictures.
 pub(crate) const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
+/// Format in which light is added up before it becomes a picture.
+pub(crate) const RADIANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
 /// Format of the depth buffer; depth is reversed: 1 at the near plane, 0 where nothing was drawn.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Colour, its samples and depth.
+/// Colour, its samples and depth, for what is drawn as it is shown.
 #[derive(Debug)]
 pub(crate) struct Targets {
     /// The resolved picture.
@@ -19,10 +22,10 @@ pub(crate) struct Targets {
     depth_view: wgpu::TextureView,
 }
 
-/// A picture is larger than the device's textures.
+/// A picture is larger than the device's textures, or has no pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "a picture of {width}x{height} is too large, the graphics device allows {limit} pixels a side; choose a smaller size"
+    "a picture of {width}x{height} cannot be made, the graphics device allows 1 to {limit} pixels a side; choose another size"
 )]
 pub struct SizeTooLarge {
     /// Width in pixels.
@@ -36,7 +39,11 @@ pub struct SizeTooLarge {
 /// Checks that the device can hold a picture.
 pub(crate) fn check_size(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<(), SizeTooLarge> {
     let limit = gpu.device.limits().max_texture_dimension_2d;
-    if width.max(height) > limit { Err(SizeTooLarge { width, height, limit }) } else { Ok(()) }
+    if width.max(height) > limit || width.min(height) == 0 {
+        Err(SizeTooLarge { width, height, limit })
+    } else {
+        Ok(())
+    }
 }
 
 /// A texture of one level that passes draw into.

@@ -1,71 +1,92 @@
 //! Pictures of what stands behind a picture: maps, visibility and silhouettes. Of a light with several views the maps are
 //! those of the first one.
 
-use contrejour_plan::{DepthPrecision, LightKind, guard_ndc, views_with_guard};
+use contrejour_gpu::{LightHandle, Untimed};
+use contrejour_layout::SilhouetteEdge;
+use contrejour_plan::{BufferKind, DepthPrecision, LightKind, Stage, guard_ndc, views_with_guard};
 use image::RgbaImage;
 
+use crate::error::DrawError;
 use crate::map_texels::read_texels;
 use crate::map_views::{MapView, alpha_view, depth_view};
-use crate::picture_pass::Shading;
 use crate::readback::{ReadError, read_picture};
 use crate::renderer::Renderer;
 use crate::silhouette_lines::SilhouetteLines;
-use crate::silhouettes::read_silhouettes;
+use crate::silhouettes::read_pages;
+use crate::targets::{COLOR_FORMAT, Targets};
 
 /// One view of the last frame.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// File name without ending.
-    pub name: &'static str,
+    /// File name without ending. Where the scene has several lights it begins with `light-` and the light's number, from 1.
+    pub name: String,
     /// The picture.
     pub picture: RgbaImage,
     /// What its colours mean, one line.
     pub legend: String,
 }
 
+/// A light that casts: its place among the scene's lights, and what the library calls it.
+type Casting = (usize, LightHandle);
+
 impl Renderer {
-    /// Every view of the last frame: the maps that it has, its visibility, and its silhouettes over the picture.
+    /// Every view of the scene as it is now: for each light that casts, the maps that it has, its visibility, and its
+    /// silhouettes over the picture.
     ///
     /// # Errors
     ///
-    /// [`ReadError`] when the device fails.
-    pub fn views(&self) -> Result<Vec<View>, ReadError> {
-        let mut views = self.map_views()?;
-        views.push(View {
-            name: "visibility",
-            picture: self.visibility_picture()?,
-            legend: "white: the light is seen, black: it is hidden".to_owned(),
-        });
-        views.push(View {
-            name: "silhouette",
-            picture: self.silhouette_picture()?,
-            legend: "orange: outlines, blue: silhouette edges with faces on both sides; faint where hidden".to_owned(),
-        });
+    /// [`DrawError`] when the device does not allow the frame or fails.
+    pub fn views(&mut self) -> Result<Vec<View>, DrawError> {
+        let casting: Vec<Casting> = self.lights.casting_indices().collect();
+        let silhouettes = self.silhouettes()?;
+        let mut views = Vec::new();
+        for light in casting {
+            let mut of_light = self.map_views(light)?;
+            of_light.push(View {
+                name: "visibility".to_owned(),
+                picture: self.visibility_picture(light)?,
+                legend: "white: the light is seen, black: it is hidden".to_owned(),
+            });
+            let edges = silhouettes.iter().filter(|(of, _)| *of == light.1);
+            let edges: Vec<SilhouetteEdge> = edges.flat_map(|(_, edges)| edges).copied().collect();
+            of_light.push(View {
+                name: "silhouette".to_owned(),
+                picture: self.silhouette_picture(&edges)?,
+                legend: "orange: outlines, blue: silhouette edges with faces on both sides; faint where hidden"
+                    .to_owned(),
+            });
+            if self.lights.count() > 1 {
+                of_light.iter_mut().for_each(|view| view.name = format!("light-{}-{}", light.0 + 1, view.name));
+            }
+            views.extend(of_light);
+        }
         Ok(views)
     }
 
-    fn map_views(&self) -> Result<Vec<View>, ReadError> {
-        let maps = self.cast.shadows.maps(self.cast.light);
+    fn map_views(&self, light: Casting) -> Result<Vec<View>, ReadError> {
+        let maps = self.cast.shadows.maps(light.1);
         let mut views = Vec::new();
-        let mut push = |name, MapView { picture, legend }| views.push(View { name, picture, legend });
+        let mut push =
+            |name: &str, MapView { picture, legend }| views.push(View { name: String::from(name), picture, legend });
         let texels = |map| read_texels(&self.gpu, map);
         let channel =
             |texels: &[[f32; 2]], channel: usize| -> Vec<f32> { texels.iter().map(|texel| texel[channel]).collect() };
-        let linear = |depth: Vec<f32>| depth.into_iter().map(|depth| self.depth_unit() * depth).collect::<Vec<_>>();
+        let linear =
+            |depth: Vec<f32>| depth.into_iter().map(|depth| self.depth_unit(light) * depth).collect::<Vec<_>>();
         if let Some(map) = maps.shadow_depth {
-            push("shadow_map", self.linear_depth_view(&linear(channel(&texels(map)?, 0)), map.width()));
+            push("shadow_map", self.linear_depth_view(light, &linear(channel(&texels(map)?, 0)), map.width()));
         } else if let Some(map) = maps.shadow_hardware_depth {
-            let depth = self.linear_from_hardware(&channel(&texels(map)?, 0));
-            push("shadow_map", self.linear_depth_view(&depth, map.width()));
+            let depth = self.linear_from_hardware(light, &channel(&texels(map)?, 0));
+            push("shadow_map", self.linear_depth_view(light, &depth, map.width()));
         }
         if let Some(map) = maps.smoothie_buffer {
             let texels = texels(map)?;
-            push("smoothie_depth", self.linear_depth_view(&linear(channel(&texels, 0)), map.width()));
+            push("smoothie_depth", self.linear_depth_view(light, &linear(channel(&texels, 0)), map.width()));
             push("smoothie_alpha", alpha_view(&channel(&texels, 1), map.width()));
         }
         if let Some(map) = maps.smoothie_depth {
-            let depth = self.linear_from_hardware(&channel(&texels(map)?, 0));
-            push("smoothie_depth", self.linear_depth_view(&depth, map.width()));
+            let depth = self.linear_from_hardware(light, &channel(&texels(map)?, 0));
+            push("smoothie_depth", self.linear_depth_view(light, &depth, map.width()));
         }
         if let Some(map) = maps.smoothie_alpha {
             push("smoothie_alpha", alpha_view(&channel(&texels(map)?, 0), map.width()));
@@ -74,61 +95,95 @@ impl Renderer {
     }
 
     /// Depth in local units that 1 stands for in maps of linear depth.
-    fn depth_unit(&self) -> f32 {
-        let precision = self.cast.shadows.plan(self.cast.light).map(|plan| plan.settings.depth_precision);
-        if precision == Some(DepthPrecision::Bits16) { self.depth_range().1 as f32 } else { 1.0 }
+    fn depth_unit(&self, light: Casting) -> f32 {
+        let precision = self.cast.shadows.plan(light.1).map(|plan| plan.settings.depth_precision);
+        if precision == Some(DepthPrecision::Bits16) { self.depth_range(light).1 as f32 } else { 1.0 }
     }
 
-    fn linear_depth_view(&self, depth: &[f32], size: u32) -> MapView {
-        let (_, far) = self.depth_range();
+    fn linear_depth_view(&self, light: Casting, depth: &[f32], size: u32) -> MapView {
+        let (_, far) = self.depth_range(light);
         depth_view(depth, size, far as f32, self.local.length_world(1.0))
     }
 
     /// Linear depth from clip z, as the visibility function of two textures does it.
-    fn linear_from_hardware(&self, ndc_z: &[f32]) -> Vec<f32> {
-        let (near, far) = self.depth_range();
-        let is_perspective = matches!(self.light_local.kind, LightKind::Spot { .. } | LightKind::Point { .. });
+    fn linear_from_hardware(&self, light: Casting, ndc_z: &[f32]) -> Vec<f32> {
+        let (near, far) = self.depth_range(light);
+        let is_perspective =
+            matches!(self.lights.local(light.0).kind, LightKind::Spot { .. } | LightKind::Point { .. });
         let linear =
             |z: f64| if is_perspective { near * far / (far + (near - far) * z) } else { near + (far - near) * z };
         ndc_z.iter().map(|&z| if z < 1.0 { linear(z.into()) as f32 } else { far as f32 }).collect()
     }
 
     /// Nearest and farthest depth of the light's views, in local units.
-    fn depth_range(&self) -> (f64, f64) {
-        let settings = self.cast.shadows.plan(self.cast.light).map(|plan| plan.settings).unwrap_or_default();
-        let views = views_with_guard(&self.light_local, guard_ndc(&self.light_local, &settings));
+    fn depth_range(&self, light: Casting) -> (f64, f64) {
+        let settings = self.cast.shadows.plan(light.1).map(|plan| plan.settings).unwrap_or_default();
+        let views = views_with_guard(self.lights.local(light.0), guard_ndc(self.lights.local(light.0), &settings));
         // A light that has maps has views.
         views.ok().and_then(|views| views.first().map(|view| (view.near_depth, view.far_depth))).unwrap_or((0.0, 1.0))
     }
 
-    fn visibility_picture(&self) -> Result<RgbaImage, ReadError> {
-        self.draw_view(Shading::Visibility, wgpu::Color::WHITE, None)
-    }
-
-    fn silhouette_picture(&self) -> Result<RgbaImage, ReadError> {
-        let edges = read_silhouettes(&self.gpu, &self.cast.shadows)?;
-        let size = [self.targets.picture.width(), self.targets.picture.height()];
-        let lines = SilhouetteLines::new(&self.gpu, &self.casters, &edges, self.uniforms.eye_clip_from_local, size);
-        self.draw_view(Shading::Lit, self.background, Some(&lines))
-    }
-
-    /// Draws over the last picture, from the same maps.
-    fn draw_view(
-        &self,
-        shading: Shading,
-        background: wgpu::Color,
-        lines: Option<&SilhouetteLines>,
-    ) -> Result<RgbaImage, ReadError> {
-        let pipeline = self.pass.pipeline(&self.gpu, shading);
+    fn visibility_picture(&self, light: Casting) -> Result<RgbaImage, ReadError> {
+        let targets = Targets::new(&self.gpu, self.targets.size);
         let mut encoder = self.encoder();
         {
-            let mut pass = self.targets.begin_pass(&mut encoder, background, None);
-            self.pass.draw(&mut pass, &pipeline, &self.cast, &self.meshes);
-            if let Some(lines) = lines {
-                lines.draw(&mut pass);
-            }
+            let mut pass = targets.begin_pass(&mut encoder, wgpu::Color::WHITE, None);
+            self.pass.draw_visibility(&self.gpu, &mut pass, &self.cast, light, &self.meshes);
         }
         self.gpu.queue.submit([encoder.finish()]);
-        read_picture(&self.gpu, &self.targets.picture)
+        read_picture(&self.gpu, &targets.picture)
     }
+
+    fn silhouette_picture(&mut self, edges: &[SilhouetteEdge]) -> Result<RgbaImage, ReadError> {
+        let eye_clip_from_local = self.uniforms.eye_clip_from_local;
+        let lines = SilhouetteLines::new(&self.gpu, &self.casters, edges, eye_clip_from_local, self.targets.size);
+        self.picture_pass.prepare(&self.gpu, COLOR_FORMAT);
+        let mut encoder = self.encoder();
+        {
+            let mut pass = self.targets.begin_pass(&mut encoder, self.background, None);
+            self.pass.draw(&mut pass, &self.cast, &self.lights.handles, &self.meshes);
+            lines.draw(&mut pass);
+        }
+        let view = self.picture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.picture_pass.encode(&mut encoder, (&view, COLOR_FORMAT), None);
+        self.gpu.queue.submit([encoder.finish()]);
+        read_picture(&self.gpu, &self.picture)
+    }
+
+    /// Silhouettes of all views of all lights, one list for each view of a light that looks for them. The lists are filled
+    /// for one view after the other, so they are copied as they are made.
+    fn silhouettes(&mut self) -> Result<Vec<(LightHandle, Vec<SilhouetteEdge>)>, DrawError> {
+        let Self { gpu, cast, .. } = self;
+        cast.shadows.redraw();
+        cast.prepare(gpu, &self.casters, self.lights.casting())?;
+        let looks =
+            |light: &LightHandle| cast.shadows.plan(*light).is_some_and(|plan| plan.has_stage(Stage::DetectSilhouette));
+        let looking: Vec<LightHandle> = self.lights.handles.iter().flatten().copied().filter(looks).collect();
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut copies = Vec::new();
+        cast.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
+            if looking.contains(&view.light) {
+                let mut copied = |kind| -> Vec<wgpu::Buffer> {
+                    view.buffers(kind).map(|buffer| copy_of(gpu, encoder, buffer)).collect()
+                };
+                copies.push((view.light, copied(BufferKind::Counters), copied(BufferKind::Silhouettes)));
+            }
+        });
+        gpu.queue.submit([encoder.finish()]);
+        let read = |(light, counters, silhouettes): &(LightHandle, Vec<wgpu::Buffer>, Vec<wgpu::Buffer>)| {
+            Ok((*light, read_pages(gpu, counters.iter().zip(silhouettes))?))
+        };
+        copies.iter().map(read).collect()
+    }
+}
+
+fn copy_of(gpu: &crate::Gpu, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) -> wgpu::Buffer {
+    let copy = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("copied list"),
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    });
+    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+    copy
 }

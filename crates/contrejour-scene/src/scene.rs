@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use contrejour_mesh::{LoadError, MeshFile, TriangleMesh, read_file};
+use contrejour_plan::ShadowSettings;
 use glam::{DMat4, DVec3};
 
 use crate::framing::frame;
@@ -129,6 +130,11 @@ impl Scene {
     /// [`NoLight`].
     pub fn first_light(&self) -> Result<&SceneLight, NoLight> {
         self.lights.first().ok_or(NoLight)
+    }
+
+    /// Makes the shadows of all lights in one way.
+    pub fn set_shadow(&mut self, settings: &ShadowSettings) {
+        self.lights.iter_mut().for_each(|light| light.shadow = *settings);
     }
 
     /// What a luminance of 1 cd/m^2 is in the picture, where 1 is white; follows from

@@ -50,7 +50,7 @@ pub fn all() -> Vec<Module> {
     for (kind, choice) in both {
         // At the bind groups that the renderer's modules leave to the library.
         for (own, files, group) in [
-            ("shade", &["raster/shade", "shared/surface_light", "shared/surface"][..], 2),
+            ("shade", &["raster/shade", "shared/surface_light", "shared/falloff", "shared/surface"][..], 2),
             ("judged_visibility", &["raster/judged_visibility", "shared/full_screen"], 1),
         ] {
             let wgsl = format!("{}\n{}", joined(files), visibility_wgsl(kind, choice, group));
@@ -59,7 +59,13 @@ pub fn all() -> Vec<Module> {
     }
     for (name, files) in [
         ("receivers", &["raster/receivers", "shared/surface"][..]),
-        ("compose", &["raster/compose", "shared/surface_light", "shared/surface"]),
+        ("ambient", &["raster/ambient", "shared/surface_light", "shared/falloff", "shared/surface"]),
+        (
+            "shade+unshadowed",
+            &["raster/shade", "shared/surface_light", "shared/falloff", "shared/surface", "shared/unshadowed"],
+        ),
+        ("picture", &["raster/picture", "shared/tone_map", "shared/full_screen"]),
+        ("compose", &["raster/compose", "shared/surface_light", "shared/falloff", "shared/tone_map", "shared/surface"]),
         ("silhouette_lines", &["raster/silhouette_lines"]),
     ] {
         modules.push(Module { name: name.into(), wgsl: joined(files) });

@@ -25,7 +25,8 @@ fn write_out(name: &str, parsed: &naga::Module, info: &ModuleInfo) -> Result<(),
         let pipeline = spv::PipelineOptions { shader_stage: stage, entry_point: entry.into() };
         let words = spv::write_vec(&module, &info, &spv::Options::default(), Some(&pipeline))
             .map_err(|error| failed("SPIR-V", &error))?;
-        let options = msl::Options { lang_version: (2, 0), fake_missing_bindings: true, ..Default::default() };
+        // 2.1, of macOS 10.14: the renderer asks for invariant positions.
+        let options = msl::Options { lang_version: (2, 1), fake_missing_bindings: true, ..Default::default() };
         let (metal, _) = msl::write_string(&module, &info, &options, &msl::PipelineOptions::default())
             .map_err(|error| failed("MSL", &error))?;
         let mut direct3d = String::new();

@@ -260,21 +260,21 @@ fn small_scene() -> Result<Scene, String> {
 fn the_renderer_tells_a_lost_device() -> Outcome {
     let scene = small_scene()?;
     let gpu = RenderGpu::open().map_err(text)?;
-    let mut renderer = Renderer::new(gpu.clone(), &scene, &ShadowOptions::default()).map_err(text)?;
-    renderer.draw_complete(&scene.lights[0].light).map_err(text)?;
+    let mut renderer = Renderer::new(gpu.clone(), &scene).map_err(text)?;
+    renderer.draw_complete().map_err(text)?;
     let mut contestant =
         Judge::new(gpu.clone(), &scene).map_err(text)?.contestant(&scene.lights[0].shadow).map_err(text)?;
     contestant.draw(&scene.lights[0].light).map_err(text)?;
     gpu.device.destroy();
 
     let told = [
-        ("draw", renderer.draw_complete(&scene.lights[0].light).map_err(text)),
+        ("draw", renderer.draw_complete().map_err(text)),
         ("read a picture", renderer.picture().map(|_| ()).map_err(text)),
         ("measure", renderer.measurements().map(|_| ()).map_err(text)),
         ("view", renderer.views().map(|_| ()).map_err(text)),
         ("judge", contestant.draw(&scene.lights[0].light).map(|_| ()).map_err(text)),
         ("read visibility", contestant.visibility().map(|_| ()).map_err(text)),
-        ("upload", Renderer::new(gpu.clone(), &scene, &ShadowOptions::default()).map(|_| ()).map_err(text)),
+        ("upload", Renderer::new(gpu.clone(), &scene).map(|_| ()).map_err(text)),
         ("make a judge", Judge::new(gpu.clone(), &scene).map(|_| ()).map_err(text)),
     ];
     for (what, outcome) in told {
@@ -297,8 +297,8 @@ fn pictures_need_no_more_than_the_defaults() -> Outcome {
         return Err("the device has more than the defaults".into());
     }
     let picture = |gpu: RenderGpu| -> Result<_, String> {
-        let mut renderer = Renderer::new(gpu, &scene, &ShadowOptions::default()).map_err(text)?;
-        renderer.draw_complete(&scene.lights[0].light).map_err(text)?;
+        let mut renderer = Renderer::new(gpu, &scene).map_err(text)?;
+        renderer.draw_complete().map_err(text)?;
         renderer.views().map_err(text)?;
         renderer.measurements().map_err(text)?;
         renderer.picture().map_err(text)
@@ -308,9 +308,9 @@ fn pictures_need_no_more_than_the_defaults() -> Outcome {
     compare_images("defaults", &full, &picture(basic.clone())?, tolerance)?;
     let judge = Judge::new(basic, &scene).map_err(text)?;
     judge.contestant(&scene.lights[0].shadow).map_err(text)?.draw(&scene.lights[0].light).map_err(text)?;
-    let too_large =
-        ShadowOptions { settings: ShadowSettings { map_size: 16_384, ..Default::default() }, ..Default::default() };
-    match Renderer::new(RenderGpu::open_with_defaults().map_err(text)?, &scene, &too_large).map(|_| ()) {
+    let mut too_large = scene.clone();
+    too_large.set_shadow(&ShadowSettings { map_size: 16_384, ..Default::default() });
+    match Renderer::new(RenderGpu::open_with_defaults().map_err(text)?, &too_large).map(|_| ()) {
         Err(NewRendererError::Prepare(PrepareShadowsError::Prepare(PrepareError::Plan(_)))) => Ok(()),
         other => Err(format!("a map larger than the defaults allow: {other:?}")),
     }

@@ -1,9 +1,8 @@
 //! Techniques are judged at the points that the picture shows: the receivers lie on the faces that a ray from the eye
 //! meets first, the judged visibility is the one that the picture shows, and shading with it gives the picture.
 
-use contrejour_gpu::ShadowOptions;
 use contrejour_plan::{FramePlan, Light, Omitted, ShadowSettings, Technique};
-use contrejour_render::{ComposeError, Judge, Receivers, Renderer, frame_plan, rocked};
+use contrejour_render::{ComposeError, Judge, LightPlan, Receivers, Renderer, frame_plans, rocked};
 use contrejour_scene::Scene;
 use contrejour_tests::gpu::{Equipment, render_gpu};
 use contrejour_tests::harness::{Outcome, gpu_trial};
@@ -136,9 +135,10 @@ fn planted_receivers_are_found() -> Outcome {
 fn one_sample_renderer(scene: &Scene, settings: &ShadowSettings) -> Result<Renderer, String> {
     let mut gpu = render_gpu(Equipment::Baseline)?;
     gpu.sample_count = 1;
-    let options = ShadowOptions { settings: *settings, ..ShadowOptions::default() };
-    let mut renderer = Renderer::new(gpu, scene, &options).map_err(text)?;
-    renderer.draw_complete(&scene.lights[0].light).map_err(text)?;
+    let mut scene = scene.clone();
+    scene.set_shadow(settings);
+    let mut renderer = Renderer::new(gpu, &scene).map_err(text)?;
+    renderer.draw_complete().map_err(text)?;
     Ok(renderer)
 }
 
@@ -160,7 +160,7 @@ fn visibility_is_what_the_picture_shows() -> Outcome {
         let mut scene = scene(name)?;
         let judge_of_scene = judge(&scene)?;
         for settings in techniques(&scene) {
-            let renderer = one_sample_renderer(&scene, &settings)?;
+            let mut renderer = one_sample_renderer(&scene, &settings)?;
             let views = renderer.views().map_err(text)?;
             let view = views.iter().find(|view| view.name == "visibility").ok_or("there is such a view")?;
             let mut contestant = judge_of_scene.contestant(&settings).map_err(text)?;
@@ -367,14 +367,16 @@ fn the_plan_is_known_before() -> Outcome {
         scene.meshes[0].casts = false;
         let judge = judge(&scene)?;
         for settings in techniques(&scene) {
-            let before = frame_plan(&scene, &settings, &judge.gpu().facts()).map_err(text)?;
+            scene.set_shadow(&settings);
+            let plans = frame_plans(&scene, &judge.gpu().facts()).map_err(text)?;
+            let [LightPlan { plan: before, .. }] = &plans[..] else { return Err(format!("{name} has one light")) };
             let contestant = judge.contestant(&settings).map_err(text)?;
             let followed = contestant.plan().ok_or("a contestant is prepared")?;
             let facts = |plan: &FramePlan| {
                 let FramePlan { stages, passes, buffers, textures, casting, pages, .. } = plan.clone();
                 (stages, passes, buffers, textures, casting, pages)
             };
-            if facts(&before) != facts(followed) {
+            if facts(before) != facts(followed) {
                 return Err(format!("{name}: {before:?} was planned and {followed:?} followed"));
             }
             if before.left_out.iter().all(|left_out| left_out.what != Omitted::Topology(scene.meshes[0].name.clone())) {

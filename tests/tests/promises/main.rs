@@ -3,6 +3,7 @@
 mod closed;
 mod deformed;
 mod device_trouble;
+mod drawn_lights;
 mod exact;
 mod facing;
 mod judged;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         lamp_borders::trials(),
         left_out::trials(),
         peers::trials(),
+        drawn_lights::trials(),
         pictures::trials(),
         judged::trials(),
     ];

@@ -1,6 +1,5 @@
 //! The built-in scenes look as their goldens in `assets/goldens`, which `CONTREJOUR_BLESS=1` writes.
 
-use contrejour_gpu::ShadowOptions;
 use contrejour_plan::{AlphaRemap, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique};
 use contrejour_render::Renderer;
 use contrejour_scene::{BUILT_IN_SCENES, BuiltInScene};
@@ -35,23 +34,23 @@ pub fn trials() -> Vec<Trial> {
     trials
 }
 
-fn picture(scene: &BuiltInScene, change: impl FnOnce(&mut ShadowSettings)) -> Result<RgbaImage, String> {
+fn picture(scene: &BuiltInScene, change: impl Fn(&mut ShadowSettings)) -> Result<RgbaImage, String> {
     picture_on(Equipment::Baseline, scene, change)
 }
 
 fn picture_on(
     equipment: Equipment,
     scene: &BuiltInScene,
-    change: impl FnOnce(&mut ShadowSettings),
+    change: impl Fn(&mut ShadowSettings),
 ) -> Result<RgbaImage, String> {
     let mut scene = scene.load().map_err(|error| error.to_string())?;
     scene.resize(SIZE);
-    let mut settings = ShadowSettings { map_size: MAP_SIZE, ..scene.lights[0].shadow };
-    change(&mut settings);
-    let gpu = render_gpu(equipment)?;
-    let options = ShadowOptions { settings, ..Default::default() };
-    let mut renderer = Renderer::new(gpu, &scene, &options).map_err(|error| error.to_string())?;
-    renderer.draw_complete(&scene.lights[0].light).map_err(|error| error.to_string())?;
+    for light in &mut scene.lights {
+        light.shadow.map_size = MAP_SIZE;
+        change(&mut light.shadow);
+    }
+    let mut renderer = Renderer::new(render_gpu(equipment)?, &scene).map_err(|error| error.to_string())?;
+    renderer.draw_complete().map_err(|error| error.to_string())?;
     renderer.picture().map_err(|error| error.to_string())
 }
 

@@ -8,6 +8,7 @@ mod device_errors;
 mod extrude_edges;
 mod float64;
 mod huge_edges;
+mod light_formulas;
 mod list_blocks;
 mod outline_balls;
 mod parity;
@@ -28,6 +29,7 @@ fn main() -> ExitCode {
         device_errors::trials(),
         deform_positions::trials(),
         float64::trials(),
+        light_formulas::trials(),
         place_casters::trials(),
         list_blocks::trials(),
         write_item_args::trials(),

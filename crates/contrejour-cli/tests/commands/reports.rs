@@ -29,7 +29,7 @@ fn plan_tells() -> Outcome {
         return Err(format!("a shadow map needs no smoothies:\n{hard}"));
     }
     let json = folder.run("plan boxes --json").json()?;
-    let stages = json["plan"]["stages"].as_array().map(Vec::len);
+    let stages = json["lights"][0]["plan"]["stages"].as_array().map(Vec::len);
     if stages == Some(14) && json.get("device").is_some() {
         Ok(())
     } else {

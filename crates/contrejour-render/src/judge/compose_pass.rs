@@ -24,7 +24,7 @@ impl ComposePass {
     /// Draws into targets of a size and a format.
     pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, surface_layout: &wgpu::BindGroupLayout) -> Self {
         let device = &gpu.device;
-        let frame = FrameBinding::new(gpu);
+        let frame = FrameBinding::new(gpu, 1);
         let visibility = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("given visibility"),
             size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
@@ -78,7 +78,7 @@ impl ComposePass {
             let (x, y) = (pixel as u32 % width, pixel as u32 / width);
             return Err(ComposeError::NotFinite { x, y, value: values[pixel] });
         }
-        self.frame.upload(gpu, uniforms);
+        self.frame.write(gpu, 0, uniforms);
         let rows = wgpu::TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(width * size_of::<f32>() as u32),
@@ -99,7 +99,7 @@ impl ComposePass {
         {
             let mut pass = targets.begin_pass(&mut encoder, background, None);
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(FRAME_GROUP, &self.frame.bind_group, &[]);
+            self.frame.bind(&mut pass, FRAME_GROUP, 0);
             pass.set_bind_group(VISIBILITY_GROUP, &self.visibility_bind_group, &[]);
             meshes.draw(&mut pass, SURFACE_GROUP);
         }

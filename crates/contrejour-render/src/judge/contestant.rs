@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use contrejour_gpu::{Maps, ShadowOptions, Shadows};
-use contrejour_plan::{FramePlan, Light, Outputs, ShadowSettings};
+use contrejour_gpu::{LightHandle, Maps, Shadows};
+use contrejour_plan::{FramePlan, Light, ShadowSettings};
 use cpu_time::ThreadTime;
 
 use super::JudgedScene;
@@ -21,6 +21,7 @@ use crate::targets::target_texture;
 pub struct Contestant {
     scene: Arc<JudgedScene>,
     cast: CastShadows,
+    light: LightHandle,
     pass: VisibilityPass,
     target: wgpu::Texture,
     target_view: wgpu::TextureView,
@@ -51,18 +52,18 @@ pub struct FrameCost {
 
 impl Contestant {
     pub(super) fn new(scene: Arc<JudgedScene>, settings: &ShadowSettings) -> Result<Self, NewContestantError> {
-        let JudgedScene { gpu, local, casters, receivers, light } = &*scene;
-        let options = ShadowOptions { settings: *settings, outputs: Outputs::Maps, ..ShadowOptions::default() };
-        let light_local = local.light(light);
-        let mut cast = CastShadows::new(gpu, casters, &light_local, &options)?;
-        cast.prepare(gpu, casters, &light_local)?;
-        let pass = VisibilityPass::new(gpu, &cast, receivers);
+        let JudgedScene { gpu, local, casters, receivers, light, .. } = &*scene;
+        let light_local = local.light(&light.light);
+        let mut cast = CastShadows::new(gpu, casters)?;
+        let handle = cast.add_light(gpu, &light_local, settings)?;
+        cast.prepare(gpu, casters, [(handle, &light_local)])?;
+        let pass = VisibilityPass::new(gpu, &cast, handle, receivers);
         let usage = wgpu::TextureUsages::COPY_SRC;
         let target = target_texture(gpu, "judged visibility", receivers.size(), 1, VISIBILITY_FORMAT, usage);
         let target_view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let timer = StageTimer::new(gpu)?;
         gpu.check()?;
-        Ok(Self { scene, cast, pass, target, target_view, timer })
+        Ok(Self { scene, cast, light: handle, pass, target, target_view, timer })
     }
 
     /// Draws a frame until its lists held everything, and waits for the device each time; returns the cost of the last.
@@ -86,10 +87,10 @@ impl Contestant {
     fn draw_once(&mut self, light_local: &Light) -> Result<FrameCost, DrawError> {
         let JudgedScene { gpu, casters, receivers, .. } = &*self.scene;
         let cpu_clock = ThreadTime::now();
-        self.cast.prepare(gpu, casters, light_local)?;
+        self.cast.prepare(gpu, casters, [(self.light, light_local)])?;
         if !self.pass.fits(&self.cast) {
             // The light gained or lost its size.
-            self.pass = VisibilityPass::new(gpu, &self.cast, receivers);
+            self.pass = VisibilityPass::new(gpu, &self.cast, self.light, receivers);
         }
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("judged") });
         self.cast.shadows.encode(&mut encoder, &mut self.timer);
@@ -138,12 +139,12 @@ impl Contestant {
 
     /// The light's plan; `None` where its device failed.
     pub fn plan(&self) -> Option<&FramePlan> {
-        self.cast.shadows.plan(self.cast.light)
+        self.cast.shadows.plan(self.light)
     }
 
     /// The light's maps.
     pub fn maps(&self) -> Maps<'_> {
-        self.cast.shadows.maps(self.cast.light)
+        self.cast.shadows.maps(self.light)
     }
 
     /// Bytes of the light's maps in the last frame.

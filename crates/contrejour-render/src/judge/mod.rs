@@ -1,4 +1,4 @@
-//! One scene, the points that its picture shows, and any number of shadow techniques that say how visible the light is
+//! One scene under its first light, the points that its picture shows, and any number of shadow techniques that say how visible the light is
 //! from each of them.
 //!
 //! Shading is kept apart: a technique is judged by its visibility alone, against the truth at the same points, and timed
@@ -16,13 +16,14 @@ mod visibility_pass;
 use std::sync::Arc;
 
 use contrejour_plan::{Light, ShadowSettings};
-use contrejour_scene::Scene;
+use contrejour_scene::{Scene, SceneLight};
 use image::RgbaImage;
 
 use crate::casters::Casters;
 use crate::frame_uniforms::FrameUniforms;
 use crate::readback::{ReadError, read_picture, read_texture};
 use crate::scene_meshes::SceneMeshes;
+use crate::surface_light::SurfaceLight;
 use crate::targets::{COLOR_FORMAT, Targets, check_size};
 use crate::{Gpu, LocalSpace};
 
@@ -62,7 +63,8 @@ struct JudgedScene {
     casters: Casters,
     receivers: ReceiverTarget,
     /// The scene's first light.
-    light: Light,
+    light: SceneLight,
+    exposure: f64,
 }
 
 impl Judge {
@@ -88,7 +90,14 @@ impl Judge {
         gpu.check()?;
         let [red, green, blue] = scene.background.map(f64::from);
         Ok(Self {
-            scene: Arc::new(JudgedScene { gpu, local, casters, receivers, light: scene.first_light()?.light }),
+            scene: Arc::new(JudgedScene {
+                gpu,
+                local,
+                casters,
+                receivers,
+                light: scene.first_light()?.clone(),
+                exposure: scene.exposure(),
+            }),
             first_faces,
             meshes,
             surface_layout,
@@ -128,7 +137,8 @@ impl Judge {
     }
 
     /// The shaded picture under a light of which each pixel sees the given part: rows from the top, as
-    /// [`Receivers::points`] and [`Contestant::visibility`] have them. Pixels without a receiver need not be right.
+    /// [`Receivers::points`] and [`Contestant::visibility`] have them. Pixels without a receiver need not be right. How bright
+    /// the light is follows from the scene's first light.
     ///
     /// # Errors
     ///
@@ -159,8 +169,10 @@ impl Judge {
         light: &Light,
         visibility: &[f32],
     ) -> Result<(), ComposeError> {
-        let JudgedScene { gpu, local, .. } = &*self.scene;
-        pass.upload(gpu, &self.uniforms.with_light(&local.light(light)), visibility)?;
+        let JudgedScene { gpu, local, exposure, .. } = &*self.scene;
+        let light = SceneLight { light: *light, ..self.scene.light.clone() };
+        let uniforms = FrameUniforms { light: SurfaceLight::new(&light, local, *exposure), ..self.uniforms };
+        pass.upload(gpu, &uniforms, visibility)?;
         pass.draw(gpu, targets, self.background, &self.meshes);
         Ok(())
     }

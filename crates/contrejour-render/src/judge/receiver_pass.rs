@@ -38,7 +38,7 @@ pub(super) struct ReceiverTarget {
 
 impl ReceiverPass {
     pub fn new(gpu: &Gpu) -> Self {
-        let frame = FrameBinding::new(gpu);
+        let frame = FrameBinding::new(gpu, 0);
         let surface_layout = surface_layout(&gpu.device);
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("receivers"),
@@ -60,7 +60,7 @@ impl ReceiverPass {
 
     /// Draws meshes whose faces share no corners.
     pub fn draw(&self, gpu: &Gpu, size: [u32; 2], meshes: &SceneMeshes, uniforms: &FrameUniforms) -> ReceiverTarget {
-        self.frame.upload(gpu, uniforms);
+        self.frame.write(gpu, 0, uniforms);
         let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
         let points = target_texture(gpu, "receiver points", size, 1, POINT_FORMAT, usage);
         let normals = target_texture(gpu, "receiver normals", size, 1, NORMAL_FORMAT, usage);
@@ -87,7 +87,7 @@ impl ReceiverPass {
                 ..Default::default()
             });
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(FRAME_GROUP, &self.frame.bind_group, &[]);
+            self.frame.bind(&mut pass, FRAME_GROUP, 0);
             meshes.draw(&mut pass, SURFACE_GROUP);
         }
         gpu.queue.submit([encoder.finish()]);

@@ -1,11 +1,10 @@
 //! The full-screen pass that asks a technique for the visibility of all receivers.
 
-use contrejour_gpu::{PassTimer, ViewChoice, VisibilityKind};
+use contrejour_gpu::{LightHandle, PassTimer, ViewChoice, VisibilityKind};
 
 use super::receiver_pass::ReceiverTarget;
 use crate::Gpu;
 use crate::casters::CastShadows;
-use crate::picture_pass::kind_of;
 use crate::shaders::JUDGED_VISIBILITY;
 
 /// Format of visibility, 0 dark to 1 lit.
@@ -21,21 +20,22 @@ const VISIBILITY_GROUP: u32 = 1;
 #[derive(Debug)]
 pub(super) struct VisibilityPass {
     kind: (VisibilityKind, ViewChoice),
+    light: LightHandle,
     pipeline: wgpu::RenderPipeline,
 }
 
 impl VisibilityPass {
     /// The pass for shadows that were prepared.
-    pub fn new(gpu: &Gpu, cast: &CastShadows, receivers: &ReceiverTarget) -> Self {
-        let CastShadows { shadows, light, .. } = cast;
-        let wgsl = format!("{JUDGED_VISIBILITY}{}", shadows.visibility_wgsl(*light, VISIBILITY_GROUP));
+    pub fn new(gpu: &Gpu, cast: &CastShadows, light: LightHandle, receivers: &ReceiverTarget) -> Self {
+        let CastShadows { shadows, .. } = cast;
+        let wgsl = format!("{JUDGED_VISIBILITY}{}", shadows.visibility_wgsl(light, VISIBILITY_GROUP));
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("judged visibility"),
             source: wgpu::ShaderSource::Wgsl(wgsl.into()),
         });
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("judged visibility"),
-            bind_group_layouts: &[Some(&receivers.layout), Some(shadows.visibility_layout(*light))],
+            bind_group_layouts: &[Some(&receivers.layout), Some(shadows.visibility_layout(light))],
             immediate_size: 0,
         });
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -59,12 +59,12 @@ impl VisibilityPass {
             multiview_mask: None,
             cache: None,
         });
-        Self { kind: kind_of(cast), pipeline }
+        Self { kind: cast.kind_of(light), light, pipeline }
     }
 
     /// Whether the pass looks up the maps that these shadows have.
     pub fn fits(&self, cast: &CastShadows) -> bool {
-        self.kind == kind_of(cast)
+        self.kind == cast.kind_of(self.light)
     }
 
     pub fn encode<T: PassTimer>(
@@ -94,7 +94,7 @@ impl VisibilityPass {
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(RECEIVER_GROUP, &receivers.bind_group, &[]);
-            pass.set_bind_group(VISIBILITY_GROUP, cast.shadows.visibility_bind_group(cast.light), &[]);
+            pass.set_bind_group(VISIBILITY_GROUP, cast.shadows.visibility_bind_group(self.light), &[]);
             pass.draw(0..3, 0..1);
         }
         timer.end(query, encoder);
