@@ -5,6 +5,7 @@ mod normals;
 mod planes;
 mod read_file;
 mod rig;
+mod texture;
 mod topology;
 mod triangle_mesh;
 
@@ -15,5 +16,6 @@ pub use rig::{
     AnimatedModel, Animation, DeformingMesh, DeformingMeshError, NodeTransform, PartPose, Pose, PoseError, Rig,
     RigNode, RigPart, Skin, UnknownAnimation,
 };
+pub use texture::{EncodedImage, Texture, TextureFilter, TextureWrap};
 pub use topology::*;
 pub use triangle_mesh::*;

@@ -1,6 +1,11 @@
 //! Triangles as they come from a file or a generator, before any topology.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use glam::{DMat4, DVec3};
+
+use crate::Texture;
 
 /// Triangles with what a renderer needs to shade them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,6 +18,11 @@ pub struct TriangleMesh {
     pub normals: Vec<[f32; 3]>,
     /// Linear base colour of each vertex, 0..1; as many as positions.
     pub colors: Vec<[f32; 3]>,
+    /// Texture coordinates of each vertex, (0, 0) at the upper left corner of a picture and (1, 1) at the lower right one;
+    /// as many as positions, or none where no part has a texture.
+    pub texture_coordinates: Vec<[f32; 2]>,
+    /// The triangles whose colours are multiplied by a texture; ascending, and no triangle is in two of them.
+    pub textured_parts: Vec<TexturedPart>,
     /// Vertex indices of each triangle, counter-clockwise from its front.
     pub triangles: Vec<[u32; 3]>,
     /// Number of each vertex in its file; of vertices with the same position the lowest stands for all.
@@ -24,6 +34,15 @@ pub struct TriangleMesh {
 impl TriangleMesh {
     /// Linear base colour where a file says nothing: a light grey.
     pub const DEFAULT_COLOR: [f32; 3] = [0.8; 3];
+}
+
+/// Triangles of a mesh that one texture colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TexturedPart {
+    /// Which of the mesh's triangles.
+    pub triangles: Range<u32>,
+    /// Base colour that the vertex colours are multiplied by.
+    pub texture: Arc<Texture>,
 }
 
 /// A mesh placed in its file's world.

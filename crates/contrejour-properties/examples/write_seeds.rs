@@ -10,6 +10,7 @@ fn main() -> io::Result<()> {
     write(&folder, "gltf/triangle.gltf", gltf.replace("BUFFER", &data_uri(&triangle_buffer())).as_bytes())?;
     write(&folder, "gltf/triangle.glb", &glb(&gltf.replace(r#","uri":"BUFFER""#, ""), &triangle_buffer()))?;
     write(&folder, "gltf/beside.gltf", gltf.replace("BUFFER", "beside.bin").as_bytes())?;
+    write(&folder, "gltf/textured.gltf", textured_gltf().replace("BUFFER", &data_uri(&textured_buffer())).as_bytes())?;
     let skinned = skinned_gltf();
     write(&folder, "gltf/skinned.glb", &glb(&skinned, &skinned_buffer()))?;
     write(&folder, "gltf/animated.glb", &glb(&animated_gltf(), &animated_buffer()))?;
@@ -52,6 +53,34 @@ fn triangle_gltf() -> String {
         r#"{"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],"#,
         r#""bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"#,
         r#""buffers":[{"byteLength":44,"uri":"BUFFER"}]}"#,
+    ]
+    .concat()
+}
+
+/// Positions, three pairs of coordinates, and the start of a PNG: loaders decode no picture.
+fn textured_buffer() -> Vec<u8> {
+    let mut buffer = f32_bytes(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    buffer.extend(f32_bytes(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]));
+    buffer.extend(b"\x89PNG\r\n\x1a\n");
+    buffer
+}
+
+fn textured_gltf() -> String {
+    [
+        r#"{"asset":{"version":"2.0"},"nodes":[{"mesh":0},{"mesh":0}],"#,
+        r#""meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_1":1},"material":0},"#,
+        r#"{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":1},{"attributes":{"POSITION":0}}]}],"#,
+        r#""materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}},"#,
+        r#"{"pbrMetallicRoughness":{"baseColorTexture":{"index":1,"extensions":{"KHR_texture_transform":"#,
+        r#"{"offset":[0.5,1],"rotation":1,"scale":[2,-2]}}}}}],"#,
+        r#""extensionsUsed":["KHR_texture_transform"],"samplers":[{"magFilter":9728,"wrapS":33648,"wrapT":33071}],"#,
+        r#""textures":[{"source":0},{"source":1,"sampler":0}],"#,
+        r#""images":[{"bufferView":2,"mimeType":"image/png"},{"uri":"beside.png"}],"#,
+        r#""accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},"#,
+        r#"{"bufferView":1,"componentType":5126,"type":"VEC2","count":3}],"#,
+        r#""bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24},"#,
+        r#"{"buffer":0,"byteOffset":60,"byteLength":8}],"#,
+        r#""buffers":[{"byteLength":68,"uri":"BUFFER"}]}"#,
     ]
     .concat()
 }

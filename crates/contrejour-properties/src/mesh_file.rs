@@ -3,7 +3,9 @@
 use std::io;
 use std::path::Path;
 
-use contrejour_mesh::{BuildOptions, MeshFile, ReadFileError, TopologyAwareMesh, TriangleMesh, load_bytes};
+use contrejour_mesh::{
+    BuildOptions, MeshFile, ReadFileError, TexturedPart, TopologyAwareMesh, TriangleMesh, load_bytes,
+};
 use contrejour_scene::{Bounds, Scene};
 
 use crate::scene_text::check_scene;
@@ -104,6 +106,20 @@ fn check_mesh(mesh: &TriangleMesh) {
     assert!(mesh.colors.iter().all(is_color), "a colour is out of its range");
     let is_there = |&vertex: &u32| (vertex as usize) < count;
     assert!(mesh.triangles.as_flattened().iter().all(is_there), "a triangle names a vertex that is not there");
+    check_textures(mesh);
+}
+
+fn check_textures(mesh: &TriangleMesh) {
+    let coordinates = &mesh.texture_coordinates;
+    let count = if mesh.textured_parts.is_empty() { 0 } else { mesh.positions.len() };
+    assert_eq!(coordinates.len(), count, "texture coordinates");
+    assert!(coordinates.as_flattened().iter().all(|number| number.is_finite()), "a texture coordinate is not finite");
+    let mut next = 0;
+    for TexturedPart { triangles, .. } in &mesh.textured_parts {
+        let is_in_order = next <= triangles.start && triangles.start <= triangles.end;
+        assert!(is_in_order && triangles.end as usize <= mesh.triangles.len(), "a textured part is out of order");
+        next = triangles.end;
+    }
 }
 
 /// What is said to the user is one line, and not empty.
@@ -114,6 +130,8 @@ pub(crate) fn assert_one_line(message: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use contrejour_mesh::{EncodedImage, Texture};
+
     use crate::planted::{Planted, assert_found};
 
     #[test]
@@ -123,13 +141,20 @@ mod tests {
             load_bytes(stl, Path::new("any.stl"), &|_| unreachable!("it is alone")).expect("a good file")
         };
         assert_eq!(check_loaded(good()), Loaded { vertices: 3, triangles: 1 });
-        let faults: [Planted<MeshFile>; 9] = [
+        let faults: [Planted<MeshFile>; 11] = [
             ("a position", |file| file.meshes[0].positions[1][2] = f32::NAN),
             ("a normal", |file| file.meshes[0].normals[2] = [0.0; 3]),
             ("a colour", |file| file.meshes[0].colors[0][1] = 1.5),
             ("a colour", |file| file.meshes[0].colors[0][1] = f32::NAN),
             ("a triangle names", |file| file.meshes[0].triangles[0][0] = 3),
             ("left == right", |file| file.meshes[0].colors.truncate(2)),
+            ("texture coordinates", |file| file.meshes[0].texture_coordinates.push([0.5; 2])),
+            ("a textured part", |file| {
+                let image = EncodedImage { place: String::new(), bytes: Vec::new() };
+                let texture = Texture { image: image.into(), wrap: Default::default(), filter: Default::default() };
+                file.meshes[0].texture_coordinates = vec![[0.5; 2]; 3];
+                file.meshes[0].textured_parts.push(TexturedPart { triangles: 0..2, texture: texture.into() });
+            }),
             ("a node has mesh", |file| file.nodes[0].mesh = 1),
             ("a node stands", |file| file.nodes[0].world_from_object.w_axis.x = f64::INFINITY),
             ("two\\nlines", |file| file.warnings.push("two\nlines".to_owned())),

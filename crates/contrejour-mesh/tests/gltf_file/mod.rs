@@ -65,7 +65,7 @@ impl Builder {
         load_animated_bytes(self.text().as_bytes(), Path::new("literal.gltf"), &|_| unreachable!("it is alone"))
     }
 
-    fn text(mut self) -> String {
+    pub fn text(mut self) -> String {
         let mut hex = String::new();
         for byte in &self.buffer {
             write!(hex, "%{byte:02X}").expect("writing to a string cannot fail");

@@ -46,7 +46,7 @@ impl Surface {
             colors: vec![BASE_COLOR; vertex_count],
             triangles: self.triangles,
             vertex_numbers: (0..vertex_count as u32).collect(),
-            unlisted_vertices: 0,
+            ..TriangleMesh::default()
         }
     }
 }

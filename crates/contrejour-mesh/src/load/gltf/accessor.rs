@@ -120,6 +120,12 @@ impl<'a> Data<'a> {
         self.read(accessor, integers)
     }
 
+    /// The bytes of a view. They are counted, since many images can name one view.
+    pub(super) fn view_bytes(&self, view: &View, place: impl Fn() -> String) -> Result<&[u8], LoadError> {
+        self.count_numbers(view.length() as u64, &place)?;
+        self.slice(view, 0, 1, 1, view.length(), place)
+    }
+
     /// `count` elements of `size` bytes in a view, after checking that view and elements are there.
     fn slice(
         &self,

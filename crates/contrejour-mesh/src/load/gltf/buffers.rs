@@ -79,14 +79,14 @@ pub(super) fn read_buffers<'a>(
 }
 
 /// The file that a relative URI names.
-fn beside(path: &Path, uri: &str) -> PathBuf {
+pub(super) fn beside(path: &Path, uri: &str) -> PathBuf {
     let name = percent_decoded(uri);
     let name = String::from_utf8_lossy(&name);
     path.parent().unwrap_or(Path::new("")).join(&*name)
 }
 
 /// Bytes of a data URI without its `data:` (RFC 2397).
-fn data_uri_bytes(data: &str) -> Option<Vec<u8>> {
+pub(super) fn data_uri_bytes(data: &str) -> Option<Vec<u8>> {
     let (kind, content) = data.split_once(',')?;
     let content = percent_decoded(content);
     if kind.ends_with(";base64") { base64_decoded(&content) } else { Some(content) }

@@ -7,6 +7,7 @@ mod nodes;
 mod primitive;
 mod rig;
 mod skin;
+mod textures;
 
 use std::path::Path;
 
@@ -14,17 +15,19 @@ use glam::DMat4;
 use gltf::{Document, Node};
 
 use super::{ReadFile, is_finite, read_file};
-use crate::{AnimatedModel, LoadError, MeshFile, MeshNode, TriangleMesh};
+use crate::{AnimatedModel, LoadError, MeshFile, MeshNode, TexturedPart, TriangleMesh};
 
 use accessor::Data;
 use primitive::LeftOut;
+use textures::Textures;
 
 /// Loads a glTF or GLB file from its bytes; `path` is for messages and for the buffers beside it.
 ///
 /// Each node of the default scene that has a mesh brings one [`TriangleMesh`] of all its primitives, in depth-first
 /// order; strips and fans become triangles. Vertex numbers count all vertices of all primitives in that order.
-/// Colours are base colour factors times `COLOR_0`; textures are not read. Morph targets have their default
-/// weights. A skinned mesh stands as its joints place it at rest, in world space, whatever its own node says
+/// Colours are base colour factors times `COLOR_0`. Base colour textures come with their pictures as the file has them,
+/// and with coordinates after `KHR_texture_transform`; a picture that is missing is a warning, and so are primitives
+/// without the coordinates that their texture asks for. Morph targets have their default weights. A skinned mesh stands as its joints place it at rest, in world space, whatever its own node says
 /// (glTF 2.0, 3.7.3.3).
 ///
 /// # Errors
@@ -63,7 +66,7 @@ fn load_with<T>(
         next_number: 0,
         primitives_left_out: 0,
         left_out: LeftOut::default(),
-        has_textures: false,
+        textures: Textures::new(path, read_beside),
     };
     let mut file = MeshFile::default();
     for node in nodes::scene_nodes(document, path)? {
@@ -72,12 +75,13 @@ fn load_with<T>(
             file.meshes.push(mesh);
         }
     }
-    file.warnings = loader.warnings();
+    let more = read_more(document, &loader.data, &mut file)?;
+    let mut warnings = loader.into_warnings();
     let instancing = "EXT_mesh_gpu_instancing";
     if document.extensions_used().any(|name| name == instancing) {
-        file.warnings.push(format!("{instancing} is not read; each of its nodes stands once"));
+        warnings.push(format!("{instancing} is not read; each of its nodes stands once"));
     }
-    let more = read_more(document, &loader.data, &mut file)?;
+    file.warnings.splice(0..0, warnings);
     Ok((file, more))
 }
 
@@ -87,7 +91,7 @@ struct Loader<'a> {
     next_number: u32,
     primitives_left_out: usize,
     left_out: LeftOut,
-    has_textures: bool,
+    textures: Textures<'a>,
 }
 
 impl Loader<'_> {
@@ -122,10 +126,6 @@ impl Loader<'_> {
             if let Some(joint_matrices) = &joint_matrices {
                 skin::apply(&mut vertices, &primitive, joint_matrices, &self.data, &place)?;
             }
-            let material = primitive.material();
-            let texture = material.pbr_metallic_roughness().base_color_texture();
-            self.has_textures |= texture.is_some();
-
             let first_vertex = mesh.positions.len() as u32;
             for (vertex, position) in vertices.positions.iter().enumerate() {
                 let position = position.map(|coordinate| coordinate as f32);
@@ -146,7 +146,17 @@ impl Loader<'_> {
             let triangles =
                 primitive::read_triangles(&primitive, vertex_count, &self.data, &place, &mut self.left_out)?;
             let in_mesh = |triangle: [u32; 3]| triangle.map(|vertex| first_vertex + vertex);
+            let first_triangle = mesh.triangles.len() as u32;
             mesh.triangles.extend(triangles.into_iter().map(in_mesh));
+            if let Some((texture, coordinates)) = self.textures.of_primitive(&primitive, vertex_count, &self.data)? {
+                mesh.texture_coordinates.resize(first_vertex as usize, [0.0; 2]);
+                mesh.texture_coordinates.extend(coordinates);
+                let triangles = first_triangle..mesh.triangles.len() as u32;
+                mesh.textured_parts.push(TexturedPart { triangles, texture });
+            }
+        }
+        if !mesh.textured_parts.is_empty() {
+            mesh.texture_coordinates.resize(mesh.positions.len(), [0.0; 2]);
         }
         mesh.complete_normals();
         let world_from_object = match joint_matrices {
@@ -164,7 +174,7 @@ impl Loader<'_> {
         Ok(first..self.next_number)
     }
 
-    fn warnings(&self) -> Vec<String> {
+    fn into_warnings(self) -> Vec<String> {
         let mut warnings = Vec::new();
         if self.primitives_left_out > 0 {
             warnings.push(format!(
@@ -178,9 +188,7 @@ impl Loader<'_> {
                 self.left_out.indices
             ));
         }
-        if self.has_textures {
-            warnings.push("base colour textures are not read; base colour factors are used".into());
-        }
+        warnings.extend(self.textures.into_warnings());
         warnings
     }
 }
