@@ -8,6 +8,7 @@ mod caster_frame;
 mod hostile;
 mod mesh_file;
 mod most_bytes;
+mod picture;
 #[cfg(test)]
 mod planted;
 mod rig;
@@ -16,7 +17,8 @@ mod silhouette;
 
 pub use caster::{Caster, Lens};
 pub use mesh_file::{Format, Loaded, check_mesh_file};
-pub use most_bytes::{most_bytes_of_mesh_file, most_bytes_of_scene, most_bytes_of_silhouette};
+pub use most_bytes::{most_bytes_of_mesh_file, most_bytes_of_picture, most_bytes_of_scene, most_bytes_of_silhouette};
+pub use picture::check_picture;
 pub use rig::check_rig;
 pub use scene_text::check_scene_text;
 pub use silhouette::check_silhouette;

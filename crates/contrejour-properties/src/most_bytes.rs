@@ -27,6 +27,17 @@ pub fn most_bytes_of_scene(text_bytes: usize, triangles: Option<usize>) -> usize
     }
 }
 
+/// Bytes that the decoding of a picture may hold at once for the bytes of its file and its texels; `None` where it was
+/// refused.
+pub fn most_bytes_of_picture(file_bytes: usize, texels: Option<u64>) -> usize {
+    match texels {
+        // A decoder's planes, 16-bit channels, and the texels.
+        Some(texels) => 16 * ALWAYS + 32 * file_bytes + 24 * texels as usize,
+        // A damaged one may be refused when most of it is decoded.
+        None => 16 * ALWAYS + 32 * file_bytes + 24 * ((1 << 24) + 256 * file_bytes),
+    }
+}
+
 /// Bytes that topology, twin and oracle may hold at once for a mesh.
 pub fn most_bytes_of_silhouette(vertices: usize, triangles: usize) -> usize {
     ALWAYS + 4096 * (vertices + triangles)

@@ -16,6 +16,7 @@ mod scene;
 pub mod scene_format;
 mod scene_light;
 pub mod shapes;
+mod texture;
 mod toml_text;
 
 pub use animated_scene::{AnimatedScene, AnimatedSceneError, FrameTimes};
@@ -27,3 +28,4 @@ pub use obj_text::obj_text;
 pub use orbit::orbit;
 pub use scene::{Camera, Material, MeshSource, Scene, SceneMesh};
 pub use scene_light::{NoLight, SceneLight, SceneLightError};
+pub use texture::{TextureError, TextureReader};

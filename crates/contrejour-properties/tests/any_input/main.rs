@@ -5,15 +5,22 @@ mod mutations;
 mod seeds;
 
 use arbitrary::{Arbitrary, Unstructured};
-use contrejour_properties::{Caster, Format, check_mesh_file, check_rig, check_scene_text, check_silhouette};
+use contrejour_properties::{
+    Caster, Format, check_mesh_file, check_picture, check_rig, check_scene_text, check_silhouette,
+};
 use proptest::prelude::*;
 
 use mutations::{Mutation, mutate, mutations};
-use seeds::{scene_seeds, seeds};
+use seeds::{picture_seeds, scene_seeds, seeds};
 
 /// One of the seeds with some mutations.
 fn mutated(format: Format) -> impl Strategy<Value = Vec<u8>> {
     let seeds = seeds(format);
+    (0..seeds.len(), mutations()).prop_map(move |(seed, mutations)| mutate(&seeds[seed], &mutations))
+}
+
+fn mutated_picture() -> impl Strategy<Value = Vec<u8>> {
+    let seeds = picture_seeds();
     (0..seeds.len(), mutations()).prop_map(move |(seed, mutations)| mutate(&seeds[seed], &mutations))
 }
 
@@ -63,6 +70,11 @@ proptest! {
     #[test]
     fn mutated_stl_files_are_refused_or_load(bytes in mutated(Format::Stl)) {
         check_mesh_file(Format::Stl, &bytes);
+    }
+
+    #[test]
+    fn mutated_pictures_are_refused_or_decoded(bytes in mutated_picture()) {
+        check_picture(&bytes);
     }
 
     #[test]

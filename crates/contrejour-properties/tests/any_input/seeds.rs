@@ -1,9 +1,11 @@
 //! The seeds of the fuzz targets, which must be worth starting from.
 
 use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use contrejour_properties::{Format, check_mesh_file, check_rig, check_scene_text};
+use contrejour_properties::{Format, check_mesh_file, check_picture, check_rig, check_scene_text};
+use image::{DynamicImage, ImageFormat, Rgba, RgbaImage};
 
 /// Files in a target's folder of seeds, by name.
 fn files(target: &str) -> Vec<PathBuf> {
@@ -36,6 +38,27 @@ pub fn seeds(format: Format) -> Vec<Vec<u8>> {
 pub fn scene_seeds() -> Vec<String> {
     let text = |path| String::from_utf8(read(path)).expect("scenes are text");
     files("scene").iter().map(text).collect()
+}
+
+/// Small pictures of both formats.
+pub fn picture_seeds() -> Vec<Vec<u8>> {
+    let picture = RgbaImage::from_fn(9, 7, |x, y| Rgba([20 * x as u8, 30 * y as u8, 200, 255 - 9 * x as u8]));
+    let encode = |picture: DynamicImage, format| {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, format).expect("it fits into memory");
+        bytes.into_inner()
+    };
+    let picture = DynamicImage::from(picture);
+    vec![
+        encode(picture.clone(), ImageFormat::Png),
+        encode(picture.to_luma16().into(), ImageFormat::Png),
+        encode(picture.to_rgb8().into(), ImageFormat::Jpeg),
+    ]
+}
+
+#[test]
+fn all_pictures_are_decoded() {
+    assert!(picture_seeds().iter().all(|bytes| check_picture(bytes) == Some(63)));
 }
 
 #[test]

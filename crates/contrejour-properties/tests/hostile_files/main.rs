@@ -2,6 +2,7 @@
 
 mod gltf;
 mod obj;
+mod picture;
 mod ply_stl;
 mod scene;
 
