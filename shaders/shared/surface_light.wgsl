@@ -19,25 +19,46 @@ struct ShadeVertex {
     @location(1) @interpolate(perspective, centroid) position_local: vec3f,
     @location(2) @interpolate(perspective, centroid) normal_local: vec3f,
     @location(3) @interpolate(perspective, centroid) color: vec3f,
+    @location(4) @interpolate(perspective, centroid) texture_coordinates: vec2f,
+    // At the pixel's centre, for derivatives.
+    @location(5) centre_coordinates: vec2f,
 }
 
+@group(1) @binding(1) var base_color_texture: texture_2d<f32>;
+@group(1) @binding(2) var base_color_sampler: sampler;
+
 @vertex
-fn vertex_shade(@location(0) position: vec3f, @location(1) normal: vec3f, @location(2) color: vec3f) -> ShadeVertex {
+fn vertex_shade(
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) color: vec3f,
+    @location(3) texture_coordinates: vec2f,
+) -> ShadeVertex {
     let position_local = local_position(position);
     return ShadeVertex(
         frame.eye_clip_from_local * vec4f(position_local, 1.0),
         position_local,
         position_local,
         surface.local_normal_from_object * normal,
-        select(color, surface.base_color.rgb, surface.base_color.w == 1.0),
+        color,
+        texture_coordinates,
+        texture_coordinates,
     );
+}
+
+// Vertex colour times texture, or what the scene gives in their place.
+fn base_color(vertex: ShadeVertex) -> vec3f {
+    let across = dpdx(vertex.centre_coordinates);
+    let down = dpdy(vertex.centre_coordinates);
+    let texel = textureSampleGrad(base_color_texture, base_color_sampler, vertex.texture_coordinates, across, down);
+    return select(vertex.color * texel.rgb, surface.base_color.rgb, surface.base_color.w == 1.0);
 }
 
 // What the surface sends to the eye of the light where it is visible by this much.
 fn lit(vertex: ShadeVertex, face_normal: vec3f, visibility: f32) -> vec3f {
     let normal = shading_normal(vertex.normal_local, face_normal);
     let received = light_at(vertex.position_local, normal) * received_visibility(visibility);
-    return min(vertex.color * received, vec3f(BRIGHTEST_LIGHT));
+    return min(base_color(vertex) * received, vec3f(BRIGHTEST_LIGHT));
 }
 
 // Ambient light on a white surface.

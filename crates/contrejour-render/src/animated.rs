@@ -79,8 +79,8 @@ impl Renderer {
                 let normals = deforming.normals.at(&deforming.posed, &deforming.triangles);
                 (self.casters.positions(caster), normals)
             });
-            let colors = &animated.scene.meshes[index].mesh.colors;
-            let posed = PosedDraw { colors, pose, local: &self.local, deformed };
+            let mesh = &animated.scene.meshes[index].mesh;
+            let posed = PosedDraw { mesh, pose, local: &self.local, deformed };
             bytes += self.meshes.pose(&self.gpu, draw, &posed);
         }
         self.casters.pose_bytes += bytes;

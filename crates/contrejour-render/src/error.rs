@@ -7,7 +7,7 @@ use crate::animated::AnimationError;
 use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 use crate::gpu::DeviceFault;
 use crate::readback::ReadError;
-use crate::scene_meshes::MeshTooLarge;
+use crate::scene_meshes::UploadMeshesError;
 use crate::targets::SizeTooLarge;
 
 /// Frames after which a picture that still misses something is given up; buffers grow to what was counted, so two are
@@ -23,9 +23,9 @@ pub enum NewRendererError {
     /// A light of the scene is out of range.
     #[error(transparent)]
     SceneLight(#[from] SceneLightError),
-    /// A mesh does not fit.
+    /// A mesh does not fit, or a texture is not decoded.
     #[error(transparent)]
-    MeshTooLarge(#[from] MeshTooLarge),
+    Upload(#[from] UploadMeshesError),
     /// A mesh that casts has no topology.
     #[error(transparent)]
     Topology(#[from] CasterTopologyError),

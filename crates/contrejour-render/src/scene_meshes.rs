@@ -2,13 +2,15 @@
 
 use std::collections::HashMap;
 use std::mem::size_of;
+use std::ops::Range;
 use std::sync::Arc;
 
 use contrejour_gpu::Positions;
-use contrejour_mesh::{PartPose, TriangleMesh};
-use contrejour_scene::{Scene, SceneMesh};
+use contrejour_mesh::{PartPose, Texture, TriangleMesh};
+use contrejour_scene::{Scene, SceneMesh, TextureError};
 use glam::{DMat3, DMat4, DVec3};
 
+use crate::scene_textures::SceneTextures;
 use crate::{Gpu, LocalSpace};
 
 /// Vertex and index buffers, and where each mesh of the scene stands.
@@ -22,7 +24,8 @@ pub(crate) struct SceneMeshes {
     /// What is in the buffer of `surfaces`, a record for each visible mesh.
     surface_records: Vec<Surface>,
     surface_buffer: wgpu::Buffer,
-    surfaces: wgpu::BindGroup,
+    /// One for each texture, and the first for none.
+    surfaces: Vec<wgpu::BindGroup>,
     surface_stride: u32,
 }
 
@@ -32,7 +35,8 @@ struct MeshBuffers {
     positions: (wgpu::Buffer, u64),
     attributes: wgpu::Buffer,
     indices: wgpu::Buffer,
-    index_count: u32,
+    /// Which indices are drawn with which bind group of `surfaces`.
+    parts: Vec<(Range<u32>, usize)>,
     /// The mesh's object space from the space of its vertex buffer.
     object_from_vertex: DMat4,
 }
@@ -42,6 +46,7 @@ struct MeshBuffers {
 struct VertexAttributes {
     normal: [f32; 3],
     color: [f32; 3],
+    texture_coordinates: [f32; 2],
 }
 
 /// `Surface` in `shaders/shared/surface.wgsl`.
@@ -66,14 +71,14 @@ pub(crate) const VERTEX_LAYOUTS: [wgpu::VertexBufferLayout<'static>; 2] = [
     wgpu::VertexBufferLayout {
         array_stride: size_of::<VertexAttributes>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x3],
+        attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x3, 3 => Float32x2],
     },
 ];
 
 /// A mesh in motion.
 pub(crate) struct PosedDraw<'a> {
-    /// The vertex colours of the mesh.
-    pub colors: &'a [[f32; 3]],
+    /// The mesh at rest, for its colours and textures.
+    pub mesh: &'a TriangleMesh,
     pub pose: &'a PartPose,
     pub local: &'a LocalSpace,
     /// Where the positions of a mesh that deforms are, in object space, and its normals.
@@ -94,20 +99,49 @@ pub struct MeshTooLarge {
     pub limit: u64,
 }
 
+/// Why the meshes of a scene are not brought to the device.
+#[derive(Debug, thiserror::Error)]
+pub enum UploadMeshesError {
+    /// A mesh does not fit.
+    #[error(transparent)]
+    TooLarge(#[from] MeshTooLarge),
+    /// A texture is not decoded.
+    #[error(transparent)]
+    Texture(#[from] TextureError),
+}
+
 /// The layout of a surface's bind group.
 pub(crate) fn surface_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("surface"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: true,
-                min_binding_size: wgpu::BufferSize::new(size_of::<Surface>() as u64),
+        entries: &[
+            wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: true,
+                    min_binding_size: wgpu::BufferSize::new(size_of::<Surface>() as u64),
+                },
+                count: None,
             },
-            count: None,
-        }],
+            wgpu::BindGroupLayoutEntry {
+                binding: 1,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            },
+            wgpu::BindGroupLayoutEntry {
+                binding: 2,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                count: None,
+            },
+        ],
     })
 }
 
@@ -118,8 +152,9 @@ impl SceneMeshes {
         scene: &Scene,
         local: &LocalSpace,
         layout: &wgpu::BindGroupLayout,
-    ) -> Result<Self, MeshTooLarge> {
+    ) -> Result<Self, UploadMeshesError> {
         let mut buffers = Vec::new();
+        let mut textures = TextureList::default();
         let mut buffers_of_mesh = HashMap::new();
         let mut draws = Vec::new();
         let mut draw_of_mesh = vec![None; scene.meshes.len()];
@@ -133,7 +168,7 @@ impl SceneMeshes {
             let index = match buffers_of_mesh.get(&Arc::as_ptr(&placed.mesh)) {
                 Some(&index) => index,
                 None => {
-                    buffers.push(MeshBuffers::new(gpu, &placed.mesh, &placed.name)?);
+                    buffers.push(MeshBuffers::new(gpu, &placed.mesh, &placed.name, &mut textures)?);
                     buffers_of_mesh.insert(Arc::as_ptr(&placed.mesh), buffers.len() - 1);
                     buffers.len() - 1
                 }
@@ -151,18 +186,27 @@ impl SceneMeshes {
         // A buffer must not be empty, also where nothing is drawn.
         surface_bytes.resize(surface_bytes.len().max(surface_stride), 0);
         let surface_buffer = gpu.upload("surfaces", &surface_bytes, wgpu::BufferUsages::UNIFORM);
-        let surfaces = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("surfaces"),
-            layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &surface_buffer,
-                    offset: 0,
-                    size: wgpu::BufferSize::new(size_of::<Surface>() as u64),
-                }),
-            }],
-        });
+        let bind = |(view, sampler): &(wgpu::TextureView, wgpu::Sampler)| {
+            let surface = wgpu::BufferBinding {
+                buffer: &surface_buffer,
+                offset: 0,
+                size: wgpu::BufferSize::new(size_of::<Surface>() as u64),
+            };
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("surfaces"),
+                layout,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(surface) },
+                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(view) },
+                    wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
+                ],
+            })
+        };
+        let mut on_device = SceneTextures::new(gpu);
+        let mut surfaces = vec![bind(&on_device.white)];
+        for texture in textures.textures {
+            surfaces.push(bind(&on_device.get(gpu, texture)?));
+        }
         let surface_stride = surface_stride as u32;
         Ok(Self { buffers, draws, draw_of_mesh, surface_records, surface_buffer, surfaces, surface_stride })
     }
@@ -175,7 +219,7 @@ impl SceneMeshes {
         if let Some((Positions::InBuffer { buffer, offset, .. }, normals)) = &posed.deformed {
             buffers.positions = (buffer.clone(), *offset);
             buffers.object_from_vertex = DMat4::IDENTITY;
-            let attributes = attributes(normals, posed.colors);
+            let attributes = attributes(normals, posed.mesh);
             gpu.queue.write_buffer(&buffers.attributes, 0, bytemuck::cast_slice(&attributes));
             bytes += size_of_val(&attributes[..]);
         }
@@ -202,17 +246,24 @@ impl SceneMeshes {
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, surface_group: u32) {
         for (surface, &index) in (0u32..).zip(&self.draws) {
             let buffers = &self.buffers[index];
-            pass.set_bind_group(surface_group, &self.surfaces, &[surface * self.surface_stride]);
             pass.set_vertex_buffer(0, buffers.positions.0.slice(buffers.positions.1..));
             pass.set_vertex_buffer(1, buffers.attributes.slice(..));
             pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..buffers.index_count, 0, 0..1);
+            for (indices, group) in &buffers.parts {
+                pass.set_bind_group(surface_group, &self.surfaces[*group], &[surface * self.surface_stride]);
+                pass.draw_indexed(indices.clone(), 0, 0..1);
+            }
         }
     }
 }
 
 impl MeshBuffers {
-    fn new(gpu: &Gpu, mesh: &TriangleMesh, name: &str) -> Result<Self, MeshTooLarge> {
+    fn new<'a>(
+        gpu: &Gpu,
+        mesh: &'a TriangleMesh,
+        name: &str,
+        textures: &mut TextureList<'a>,
+    ) -> Result<Self, MeshTooLarge> {
         let vertex_bytes = (mesh.positions.len() * size_of::<VertexAttributes>()) as u64;
         let bytes = vertex_bytes.max((mesh.triangles.len() * size_of::<[u32; 3]>()) as u64);
         let limit = gpu.device.limits().max_buffer_size;
@@ -226,20 +277,55 @@ impl MeshBuffers {
             position.as_vec3().to_array()
         };
         let positions: Vec<[f32; 3]> = mesh.positions.iter().map(near_one).collect();
-        let attributes = attributes(&mesh.normals, &mesh.colors);
+        let attributes = attributes(&mesh.normals, mesh);
         let upload = |name, bytes| gpu.upload(name, bytes, wgpu::BufferUsages::VERTEX);
         Ok(Self {
             positions: (upload("positions", bytemuck::cast_slice(&positions)), 0),
             attributes: upload("vertex attributes", bytemuck::cast_slice(&attributes)),
             indices: gpu.upload("indices", bytemuck::cast_slice(&mesh.triangles), wgpu::BufferUsages::INDEX),
-            index_count: 3 * mesh.triangles.len() as u32,
+            parts: index_ranges(mesh, textures),
             object_from_vertex: DMat4::from_translation(center) * DMat4::from_scale(DVec3::splat(object_per_vertex)),
         })
     }
 }
 
-fn attributes(normals: &[[f32; 3]], colors: &[[f32; 3]]) -> Vec<VertexAttributes> {
-    normals.iter().zip(colors).map(|(&normal, &color)| VertexAttributes { normal, color }).collect()
+/// Textures in the order in which meshes name them, each once.
+#[derive(Default)]
+struct TextureList<'a> {
+    textures: Vec<&'a Texture>,
+    groups: HashMap<*const Texture, usize>,
+}
+
+impl<'a> TextureList<'a> {
+    /// The bind group of a texture; the first is that of none.
+    fn group(&mut self, texture: &'a Arc<Texture>) -> usize {
+        *self.groups.entry(Arc::as_ptr(texture)).or_insert_with(|| {
+            self.textures.push(texture);
+            self.textures.len()
+        })
+    }
+}
+
+/// The indices of all triangles, in order, and the bind group of each range's texture.
+fn index_ranges<'a>(mesh: &'a TriangleMesh, textures: &mut TextureList<'a>) -> Vec<(Range<u32>, usize)> {
+    let mut ranges = Vec::new();
+    let mut next = 0;
+    for part in &mesh.textured_parts {
+        ranges.push((next..part.triangles.start, 0));
+        ranges.push((part.triangles.clone(), textures.group(&part.texture)));
+        next = part.triangles.end;
+    }
+    ranges.push((next..mesh.triangles.len() as u32, 0));
+    ranges.retain(|(triangles, _)| !triangles.is_empty());
+    ranges.into_iter().map(|(triangles, group)| (3 * triangles.start..3 * triangles.end, group)).collect()
+}
+
+fn attributes(normals: &[[f32; 3]], mesh: &TriangleMesh) -> Vec<VertexAttributes> {
+    let coordinates = mesh.texture_coordinates.iter().copied().chain(std::iter::repeat([0.0; 2]));
+    let attributes = normals.iter().zip(&mesh.colors).zip(coordinates);
+    attributes
+        .map(|((&normal, &color), texture_coordinates)| VertexAttributes { normal, color, texture_coordinates })
+        .collect()
 }
 
 /// Middle of a mesh and the power of two next above its half size, so that its vertices lie in -1..1 and lose nothing
@@ -295,6 +381,7 @@ fn normal_matrix(matrix: DMat3) -> DMat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use contrejour_mesh::{EncodedImage, TexturedPart};
 
     #[test]
     fn normals_stay_across_their_planes() {
@@ -313,6 +400,22 @@ mod tests {
         let flat = DMat3::from_diagonal(DVec3::new(1.0, 0.0, 1.0));
         assert_eq!(normal_matrix(flat) * DVec3::new(0.3, 1.0, 0.2), DVec3::Y);
         assert_eq!(normal_matrix(DMat3::ZERO), DMat3::ZERO);
+    }
+
+    #[test]
+    fn every_index_is_drawn_once() {
+        let image = EncodedImage { place: String::new(), bytes: Vec::new() };
+        let texture = Texture { image: image.into(), wrap: Default::default(), filter: Default::default() };
+        let textures = [Arc::new(texture.clone()), Arc::new(texture)];
+        let part = |triangles, texture: usize| TexturedPart { triangles, texture: Arc::clone(&textures[texture]) };
+        let ranges = |textured_parts| {
+            let mesh = TriangleMesh { triangles: vec![[0; 3]; 9], textured_parts, ..TriangleMesh::default() };
+            index_ranges(&mesh, &mut TextureList::default())
+        };
+        assert_eq!(ranges(vec![]), [(0..27, 0)]);
+        assert_eq!(ranges(vec![part(0..9, 0)]), [(0..27, 1)]);
+        let between = ranges(vec![part(1..3, 1), part(3..4, 0), part(6..8, 1)]);
+        assert_eq!(between, [(0..3, 0), (3..9, 1), (9..12, 2), (12..18, 0), (18..24, 1), (24..27, 0)]);
     }
 
     #[test]

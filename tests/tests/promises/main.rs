@@ -21,6 +21,7 @@ mod repeatable;
 mod silhouettes;
 mod smoothie_ways;
 mod ten_million;
+mod textured;
 
 use std::process::ExitCode;
 
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         left_out::trials(),
         peers::trials(),
         drawn_lights::trials(),
+        textured::trials(),
         pictures::trials(),
         judged::trials(),
     ];

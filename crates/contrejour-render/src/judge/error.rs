@@ -6,7 +6,7 @@ use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError}
 use crate::gpu::DeviceFault;
 use crate::judge::TooManyFaces;
 use crate::readback::ReadError;
-use crate::scene_meshes::MeshTooLarge;
+use crate::scene_meshes::UploadMeshesError;
 use crate::targets::SizeTooLarge;
 
 /// Why a scene cannot be judged.
@@ -24,9 +24,9 @@ pub enum NewJudgeError {
     /// A mesh that casts has no topology.
     #[error(transparent)]
     Topology(#[from] CasterTopologyError),
-    /// A mesh does not fit.
+    /// A mesh does not fit, or a texture is not decoded.
     #[error(transparent)]
-    MeshTooLarge(#[from] MeshTooLarge),
+    Upload(#[from] UploadMeshesError),
     /// The device failed.
     #[error(transparent)]
     Device(#[from] DeviceFault),

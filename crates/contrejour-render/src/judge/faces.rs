@@ -50,6 +50,11 @@ fn separate_faces(mesh: &TriangleMesh) -> TriangleMesh {
         positions: of_corners(&mesh.positions),
         normals: of_corners(&mesh.normals),
         colors: of_corners(&mesh.colors),
+        texture_coordinates: match &mesh.texture_coordinates[..] {
+            [] => Vec::new(),
+            coordinates => corners.iter().map(|&vertex| coordinates[vertex as usize]).collect(),
+        },
+        textured_parts: mesh.textured_parts.clone(),
         triangles: (0..mesh.triangles.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect(),
         ..TriangleMesh::default()
     }
