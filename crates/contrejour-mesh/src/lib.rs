@@ -1,5 +1,6 @@
 //! Topology-aware meshes for contrejour: triangles in; welded, diagnosed, GPU-ready topology out.
 
+mod camera_and_light;
 mod load;
 mod normals;
 mod planes;
@@ -9,6 +10,7 @@ mod texture;
 mod topology;
 mod triangle_mesh;
 
+pub use camera_and_light::{FileCamera, FileLight, FileLightKind};
 pub use load::*;
 pub use planes::FacePlanes;
 pub use read_file::{ReadFileError, read_file};

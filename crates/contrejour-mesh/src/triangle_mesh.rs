@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-use crate::Texture;
+use crate::{FileCamera, FileLight, Texture};
 
 /// Triangles with what a renderer needs to shade them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -61,6 +61,10 @@ pub struct MeshFile {
     pub meshes: Vec<TriangleMesh>,
     /// Where the meshes stand.
     pub nodes: Vec<MeshNode>,
+    /// Cameras of a glTF file's scene, in depth-first order; other formats bring none.
+    pub cameras: Vec<FileCamera>,
+    /// Lights of a glTF file's scene, in the same order.
+    pub lights: Vec<FileLight>,
     /// What the file holds and the loader leaves out or replaces, one line each; empty when nothing is lost.
     pub warnings: Vec<String>,
 }
@@ -69,7 +73,7 @@ impl MeshFile {
     /// A file of one mesh that stands at the origin of its world.
     pub fn single(mesh: TriangleMesh, warnings: Vec<String>) -> Self {
         let node = MeshNode { mesh: 0, world_from_object: DMat4::IDENTITY };
-        Self { meshes: vec![mesh], nodes: vec![node], warnings }
+        Self { meshes: vec![mesh], nodes: vec![node], warnings, ..Self::default() }
     }
 
     /// Number of triangles in the file's world: those of each node's mesh.

@@ -11,6 +11,8 @@ fn main() -> io::Result<()> {
     write(&folder, "gltf/triangle.glb", &glb(&gltf.replace(r#","uri":"BUFFER""#, ""), &triangle_buffer()))?;
     write(&folder, "gltf/beside.gltf", gltf.replace("BUFFER", "beside.bin").as_bytes())?;
     write(&folder, "gltf/textured.gltf", textured_gltf().replace("BUFFER", &data_uri(&textured_buffer())).as_bytes())?;
+    let seen = seen_gltf().replace("BUFFER", &data_uri(&triangle_buffer()));
+    write(&folder, "gltf/seen.gltf", seen.as_bytes())?;
     let skinned = skinned_gltf();
     write(&folder, "gltf/skinned.glb", &glb(&skinned, &skinned_buffer()))?;
     write(&folder, "gltf/animated.glb", &glb(&animated_gltf(), &animated_buffer()))?;
@@ -49,6 +51,27 @@ fn triangle_gltf() -> String {
         r#""materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1]}}],"#,
         r#""meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]},"#,
         r#"{"primitives":[{"attributes":{"POSITION":0,"NORMAL":0},"mode":5},{"attributes":{"POSITION":0},"mode":1}]}],"#,
+        r#""accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},"#,
+        r#"{"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],"#,
+        r#""bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"#,
+        r#""buffers":[{"byteLength":44,"uri":"BUFFER"}]}"#,
+    ]
+    .concat()
+}
+
+/// With cameras and lights of all kinds.
+fn seen_gltf() -> String {
+    [
+        r#"{"asset":{"version":"2.0"},"nodes":[{"mesh":0},{"camera":0,"translation":[1,2,9],"name":"a"},"#,
+        r#"{"camera":1,"rotation":[0,1,0,0]},{"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[0,4,0]},"#,
+        r#"{"extensions":{"KHR_lights_punctual":{"light":1}},"rotation":[0.6,0,0,0.8]},"#,
+        r#"{"extensions":{"KHR_lights_punctual":{"light":2}},"scale":[2,2,2],"translation":[3,4,5]}],"#,
+        r#""cameras":[{"type":"perspective","perspective":{"yfov":0.7,"znear":0.1,"zfar":99,"aspectRatio":1.5}},"#,
+        r#"{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0.1,"zfar":9}}],"#,
+        r#""extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":["#,
+        r#"{"type":"point","intensity":20,"range":7},{"type":"directional","color":[1,0.5,0.2],"intensity":1000},"#,
+        r#"{"type":"spot","spot":{"innerConeAngle":0.2,"outerConeAngle":0.7}}]}},"#,
+        r#""meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"#,
         r#""accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},"#,
         r#"{"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],"#,
         r#""bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"#,

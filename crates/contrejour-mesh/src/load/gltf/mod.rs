@@ -5,6 +5,7 @@ mod buffers;
 mod document;
 mod nodes;
 mod primitive;
+mod punctual;
 mod rig;
 mod skin;
 mod textures;
@@ -27,8 +28,9 @@ use textures::Textures;
 /// order; strips and fans become triangles. Vertex numbers count all vertices of all primitives in that order.
 /// Colours are base colour factors times `COLOR_0`. Base colour textures come with their pictures as the file has them,
 /// and with coordinates after `KHR_texture_transform`; a picture that is missing is a warning, and so are primitives
-/// without the coordinates that their texture asks for. Morph targets have their default weights. A skinned mesh stands as its joints place it at rest, in world space, whatever its own node says
-/// (glTF 2.0, 3.7.3.3).
+/// without the coordinates that their texture asks for. Cameras in perspective and the lights of `KHR_lights_punctual`
+/// stand where their nodes are at rest. Morph targets have their default weights. A skinned mesh stands as its joints
+/// place it at rest, in world space, whatever its own node says (glTF 2.0, 3.7.3.3).
 ///
 /// # Errors
 ///
@@ -69,7 +71,10 @@ fn load_with<T>(
         textures: Textures::new(path, read_beside),
     };
     let mut file = MeshFile::default();
+    let mut orthographic = 0_usize;
     for node in nodes::scene_nodes(document, path)? {
+        let world_from_node = &loader.world_from_nodes[node.index()];
+        punctual::read_node(&node, world_from_node, path, &mut file, &mut orthographic)?;
         if let Some((mesh, world_from_object)) = loader.read_node(&node)? {
             file.nodes.push(MeshNode { mesh: file.meshes.len(), world_from_object });
             file.meshes.push(mesh);
@@ -77,6 +82,11 @@ fn load_with<T>(
     }
     let more = read_more(document, &loader.data, &mut file)?;
     let mut warnings = loader.into_warnings();
+    if orthographic > 0 {
+        warnings.push(format!(
+            "{orthographic} orthographic cameras are left out; give them a perspective to see through them"
+        ));
+    }
     let instancing = "EXT_mesh_gpu_instancing";
     if document.extensions_used().any(|name| name == instancing) {
         warnings.push(format!("{instancing} is not read; each of its nodes stands once"));
