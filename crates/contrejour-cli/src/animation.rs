@@ -58,10 +58,13 @@ impl Drawn {
     /// Opens what the arguments name.
     pub fn open(arguments: &RenderArguments) -> Result<Self, Failure> {
         let (Some(animation), Some(path)) = (&arguments.animation, &arguments.scene) else {
-            return Ok(Self::Still(Box::new(scenes::open(arguments.scene.as_deref())?)));
+            return Ok(Self::Still(Box::new(scenes::open_seen_by(
+                arguments.scene.as_deref(),
+                arguments.camera.as_deref(),
+            )?)));
         };
         let times = arguments.animate.map_or(FrameTimes::At(arguments.time.unwrap_or_default()), FrameTimes::Even);
-        Ok(Self::Moving(Box::new(AnimatedScene::open(Path::new(path), animation, times)?)))
+        Ok(Self::Moving(Box::new(AnimatedScene::open(Path::new(path), arguments.camera.as_deref(), animation, times)?)))
     }
 
     pub fn scene(&self) -> &Scene {

@@ -29,7 +29,7 @@ pub enum Command {
     Render(RenderArguments),
     /// Find the silhouette edges of a mesh
     Silhouette(SilhouetteArguments),
-    /// Report what a mesh is made of, what is wrong with it, and its animations
+    /// Report what a mesh is made of, what is wrong with it, and its textures, cameras, lights and animations
     Inspect(InspectArguments),
     /// Print what a frame of a scene would do, and what it leaves out and why
     Plan(PlanArguments),
@@ -64,6 +64,10 @@ pub struct RenderArguments {
     /// Move the light around the scene in N frames, at most 100000; without --output no picture is read back
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_FRAMES))]
     pub orbit: Option<u32>,
+
+    /// See a glTF file through its camera of this name; one without a name has its number, from 0 [default: the first]
+    #[arg(long, value_name = "NAME", requires = "scene")]
+    pub camera: Option<String>,
 
     /// Pose a glTF model as its animation of this name does; one without a name has its number in the file, from 0
     #[arg(long, value_name = "NAME", requires = "scene")]

@@ -1,9 +1,12 @@
-//! `contrejour inspect`: the topology report of each mesh of a file, and its animations.
+//! `contrejour inspect`: the topology report of each mesh of a file, and its textures, cameras, lights and animations.
 
+use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use contrejour_mesh::{
-    BuildOptions, LoadError, MeshFile, Rig, TopologyAwareMesh, TopologyReport, TriangleMesh, load, load_animated,
+    BuildOptions, EncodedImage, FileCamera, FileLight, FileLightKind, LoadError, MeshFile, Rig, TexturedPart,
+    TopologyAwareMesh, TopologyReport, TriangleMesh, load, load_animated,
 };
 use serde::Serialize;
 
@@ -16,6 +19,9 @@ struct FileReport {
     file: String,
     meshes: Vec<MeshReport>,
     animations: Vec<AnimationReport>,
+    cameras: Vec<CameraReport>,
+    lights: Vec<LightReport>,
+    textures: Vec<TextureReport>,
     warnings: Vec<String>,
 }
 
@@ -33,13 +39,43 @@ struct AnimationReport {
     seconds: f64,
 }
 
+#[derive(Serialize)]
+struct CameraReport {
+    name: String,
+    fov_y_degrees: f64,
+}
+
+#[derive(Serialize)]
+struct LightReport {
+    name: String,
+    kind: &'static str,
+    /// In candela, or lux for a directional light.
+    intensity: f64,
+}
+
+#[derive(Serialize)]
+struct TextureReport {
+    picture: String,
+    bytes: usize,
+    triangles: u64,
+}
+
 pub fn run(arguments: &InspectArguments) -> Result<(), Failure> {
-    let (MeshFile { meshes, warnings, .. }, rig) = load_all(&arguments.mesh)?;
+    let (MeshFile { meshes, cameras, lights, warnings, .. }, rig) = load_all(&arguments.mesh)?;
+    let textures = textures(&meshes);
     let meshes = meshes.iter().map(report).collect::<Result<Vec<_>, _>>()?;
     let animations = rig.animations.into_iter();
     let animations = animations.map(|animation| AnimationReport { name: animation.name, seconds: animation.duration });
-    let file =
-        FileReport { file: arguments.mesh.display().to_string(), meshes, animations: animations.collect(), warnings };
+    let camera = |FileCamera { name, fov_y, .. }| CameraReport { name, fov_y_degrees: f64::to_degrees(fov_y) };
+    let file = FileReport {
+        file: arguments.mesh.display().to_string(),
+        meshes,
+        animations: animations.collect(),
+        cameras: cameras.into_iter().map(camera).collect(),
+        lights: lights.into_iter().map(light).collect(),
+        textures,
+        warnings,
+    };
     print(&if arguments.json { serde_json::to_string_pretty(&file)? } else { text(&file) })
 }
 
@@ -54,6 +90,30 @@ fn load_all(path: &Path) -> Result<(MeshFile, Rig), LoadError> {
             Ok((file, Rig::default()))
         }
     }
+}
+
+fn light(FileLight { name, kind, intensity, .. }: FileLight) -> LightReport {
+    let kind = match kind {
+        FileLightKind::Directional { .. } => "directional",
+        FileLightKind::Point { .. } => "point",
+        FileLightKind::Spot { .. } => "spot",
+    };
+    LightReport { name, kind, intensity }
+}
+
+/// The pictures of base colour textures in the order in which meshes name them, and how many triangles have them.
+fn textures(meshes: &[TriangleMesh]) -> Vec<TextureReport> {
+    let mut reports: Vec<TextureReport> = Vec::new();
+    let mut known = HashMap::new();
+    for TexturedPart { triangles, texture } in meshes.iter().flat_map(|mesh| &mesh.textured_parts) {
+        let index = *known.entry(Arc::as_ptr(&texture.image)).or_insert_with(|| {
+            let EncodedImage { place, bytes } = &*texture.image;
+            reports.push(TextureReport { picture: place.clone(), bytes: bytes.len(), triangles: 0 });
+            reports.len() - 1
+        });
+        reports[index].triangles += triangles.len() as u64;
+    }
+    reports
 }
 
 fn report(mesh: &TriangleMesh) -> Result<MeshReport, Failure> {
@@ -73,8 +133,18 @@ fn text(file: &FileReport) -> String {
     if file.meshes.is_empty() {
         text += "\nno mesh\n";
     }
-    if !file.animations.is_empty() {
+    if !(file.animations.is_empty() && file.cameras.is_empty() && file.lights.is_empty() && file.textures.is_empty()) {
         text += "\n";
+    }
+    for TextureReport { picture, bytes, triangles } in &file.textures {
+        text += &format!("texture {picture}, {bytes} bytes, on {triangles} triangles\n");
+    }
+    for CameraReport { name, fov_y_degrees } in &file.cameras {
+        text += &format!("camera {name:?}, {fov_y_degrees:.1} degrees\n");
+    }
+    for LightReport { name, kind, intensity } in &file.lights {
+        let unit = if *kind == "directional" { "lux" } else { "candela" };
+        text += &format!("light {name:?}, {kind}, {intensity} {unit}\n");
     }
     for AnimationReport { name, seconds } in &file.animations {
         text += &format!("animation {name:?}, {seconds:.3} s\n");

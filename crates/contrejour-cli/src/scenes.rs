@@ -20,9 +20,17 @@ pub enum OpenSceneError {
 /// The scene of a file, a built-in one by its name, or without a name the default one. A file goes before a built-in
 /// scene of the same name.
 pub fn open(name: Option<&str>) -> Result<Scene, OpenSceneError> {
+    open_seen_by(name, None)
+}
+
+/// The same, seen by a camera of the file.
+pub fn open_seen_by(name: Option<&str>, camera: Option<&str>) -> Result<Scene, OpenSceneError> {
     let path = name.map(Path::new);
     if let Some(path) = path.filter(|path| path.exists() || path.extension().is_some()) {
-        return Ok(Scene::open(path)?);
+        return Ok(Scene::open_seen_by(path, camera)?);
+    }
+    if let (Some(path), Some(_)) = (path, camera) {
+        return Err(SceneError::CameraOfScene { path: path.into() }.into());
     }
     match Scene::built_in(name) {
         Some(scene) => Ok(scene?),

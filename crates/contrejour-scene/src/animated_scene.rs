@@ -9,7 +9,7 @@ use contrejour_mesh::{
 };
 use glam::DVec3;
 
-use crate::framing::frame_within;
+use crate::file_scene::{FileView, UnknownCamera};
 use crate::scene::placed_meshes;
 use crate::{Bounds, MeshSource, Scene};
 
@@ -62,6 +62,14 @@ pub enum AnimatedSceneError {
     /// The file is not loaded.
     #[error(transparent)]
     Mesh(#[from] LoadError),
+    /// The file has no such camera.
+    #[error("{}: {source}", path.display())]
+    UnknownCamera {
+        /// The file.
+        path: PathBuf,
+        /// The name, and those that there are.
+        source: UnknownCamera,
+    },
     /// The file has no such animation.
     #[error("{}: {source}", path.display())]
     Unknown {
@@ -81,13 +89,21 @@ pub enum AnimatedSceneError {
 }
 
 impl AnimatedScene {
-    /// Loads a mesh file and sets up the frames of one of its animations.
+    /// Loads a mesh file and sets up the frames of one of its animations, seen by one of its cameras: the first, or the one
+    /// of a name. Cameras and lights stand where they are at rest.
     ///
     /// # Errors
     ///
-    /// The file is not loaded, has no animation of the name, or one of its frames has no pose.
-    pub fn open(path: &Path, animation: &str, times: FrameTimes) -> Result<Self, AnimatedSceneError> {
+    /// The file is not loaded, has no camera or animation of the name, or one of its frames has no pose.
+    pub fn open(
+        path: &Path,
+        camera: Option<&str>,
+        animation: &str,
+        times: FrameTimes,
+    ) -> Result<Self, AnimatedSceneError> {
         let model = load_animated(path)?;
+        let view = FileView::of(&model.file, camera)
+            .map_err(|source| AnimatedSceneError::UnknownCamera { path: path.into(), source })?;
         let unknown = |source| AnimatedSceneError::Unknown { path: path.into(), source };
         let duration = model.rig.animation(animation).map_err(unknown)?.duration;
         let is_named = |known: &Animation| known.name == animation;
@@ -110,7 +126,8 @@ impl AnimatedScene {
                 mesh.mesh = Arc::new(TriangleMesh { positions, ..(*mesh.mesh).clone() });
             }
         }
-        let scene = Scene { warnings: model.file.warnings.clone(), ..frame_within(meshes, bounds) };
+        let mut scene = view.scene(meshes, bounds);
+        scene.warnings.splice(0..0, model.file.warnings.iter().cloned());
         Ok(Self { scene, model, animation, times })
     }
 
@@ -190,7 +207,7 @@ mod tests {
     #[test]
     fn a_file_without_animations_says_so() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/meshes/knot.obj");
-        let error = AnimatedScene::open(&folder, "Walk", FrameTimes::At(0.0)).expect_err("it is an OBJ");
+        let error = AnimatedScene::open(&folder, None, "Walk", FrameTimes::At(0.0)).expect_err("it is an OBJ");
         assert!(error.to_string().ends_with(r#"knot.obj: there is no animation "Walk"; the file has none"#), "{error}");
     }
 }

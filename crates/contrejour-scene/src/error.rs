@@ -6,6 +6,7 @@ use contrejour_mesh::{LoadError, ReadFileError};
 use contrejour_plan::SettingsError;
 
 use crate::Scene;
+use crate::file_scene::UnknownCamera;
 use crate::shapes::ShapeError;
 
 /// Why there is no scene.
@@ -29,6 +30,20 @@ pub enum SceneError {
         place: Place,
         /// What, and what to do.
         problem: Box<Problem>,
+    },
+    /// A mesh file has no camera of the name.
+    #[error("{path}: {source}", path = path.display())]
+    UnknownCamera {
+        /// The file.
+        path: PathBuf,
+        /// The name, and those that there are.
+        source: UnknownCamera,
+    },
+    /// A camera was named for a scene file.
+    #[error("{path}: a scene file has one camera, of no name; leave the name out", path = path.display())]
+    CameraOfScene {
+        /// The file.
+        path: PathBuf,
     },
     /// A mesh that was given alone cannot be loaded.
     #[error(transparent)]

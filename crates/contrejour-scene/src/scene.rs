@@ -7,7 +7,7 @@ use contrejour_mesh::{LoadError, MeshFile, TriangleMesh, read_file};
 use contrejour_plan::ShadowSettings;
 use glam::{DMat4, DVec3};
 
-use crate::framing::frame;
+use crate::file_scene::FileView;
 use crate::shapes::Shape;
 use crate::toml_text::read_scene;
 use crate::{Bounds, NoLight, SceneError, SceneLight};
@@ -71,13 +71,23 @@ impl Scene {
     /// # Errors
     /// A file that cannot be read, a mistake in a scene file, or a mesh that cannot be loaded.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
+        Self::open_seen_by(path, None)
+    }
+
+    /// [`Scene::open`], seen by the camera of this name in a mesh file; one without a name has its number, from 0.
+    ///
+    /// # Errors
+    /// As [`Scene::open`], where the file has no such camera, or where it is a scene file, which has one camera.
+    pub fn open_seen_by(path: &Path, camera: Option<&str>) -> Result<Self, SceneError> {
         let is_scene = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
         if !is_scene {
-            let mut scene = Self::around(contrejour_mesh::load(path)?);
-            for mesh in scene.meshes.iter_mut().filter(|mesh| mesh.source == MeshSource::Given) {
-                mesh.source = MeshSource::File(path.to_owned());
-            }
-            return Ok(scene);
+            let file = contrejour_mesh::load(path)?;
+            let unknown = |source| SceneError::UnknownCamera { path: path.to_owned(), source };
+            let view = FileView::of(&file, camera).map_err(unknown)?;
+            return Ok(Self::of_file(file, &view, &MeshSource::File(path.to_owned())));
+        }
+        if camera.is_some() {
+            return Err(SceneError::CameraOfScene { path: path.to_owned() });
         }
         let bytes = read_file(path, Self::MAX_FILE_BYTES)?;
         let text = String::from_utf8(bytes).map_err(|error| {
@@ -112,11 +122,23 @@ impl Scene {
 
     /// Puts meshes on a floor under a spot light, all of it in the picture; a room is lit and seen from within.
     ///
+    /// Where the file brings cameras, its first one sees the scene; where it brings lights, they shine, exposed so that a
+    /// white surface amid the meshes that faces all of them is white. A file with either stands on no floor.
+    ///
     /// Works for sizes from 1e-30 and places up to 1e15, and for flat and empty meshes. The shadow stays in the light's cone on every
     /// frame of an [orbit](crate::orbit).
     pub fn around(file: MeshFile) -> Self {
-        let warnings = file.warnings.clone();
-        Self { warnings, ..frame(placed_meshes(file, &MeshSource::Given)) }
+        let view = FileView::of(&file, None).unwrap_or_default();
+        Self::of_file(file, &view, &MeshSource::Given)
+    }
+
+    fn of_file(file: MeshFile, view: &FileView, source: &MeshSource) -> Self {
+        let mut warnings = file.warnings.clone();
+        let meshes = placed_meshes(file, source);
+        let bounds = meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union);
+        let mut scene = view.scene(meshes, bounds);
+        warnings.append(&mut scene.warnings);
+        Self { warnings, ..scene }
     }
 
     /// Bounds of all meshes in world space, floors included; empty when there is no vertex.
@@ -234,7 +256,7 @@ pub enum MeshSource {
 /// How a mesh looks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Material {
-    /// Linear base colour that replaces the mesh's own vertex colours. Range: 0 to 1. Default: none, the mesh's own.
+    /// Linear base colour that replaces the mesh's own vertex colours and textures. Range: 0 to 1. Default: none, the mesh's own.
     pub base_color: Option<[f32; 3]>,
 }
 

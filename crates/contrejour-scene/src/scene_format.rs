@@ -154,12 +154,12 @@
 //! | Key | Value | Default |
 //! | --- | --- | --- |
 //! | `shape` | a table, see below | either this |
-//! | `file` | a mesh file (.obj, .gltf, .glb, .ply, .stl), relative to the scene file | or this |
+//! | `file` | a mesh file (.obj, .gltf, .glb, .ply, .stl), relative to the scene file; of a glTF file's cameras and lights none is taken | or this |
 //! | `name` | a name for messages | the shape's kind, or the name in the file |
 //! | `scale` | one number or three, not 0 | `1` |
 //! | `rotate_degrees` | turns about x, then y, then z, after scaling | `[0, 0, 0]` |
 //! | `translate` | moves after turning | `[0, 0, 0]` |
-//! | `base_color` | colour of the surface, 0 to 1 | the mesh's own |
+//! | `base_color` | colour of the surface, 0 to 1, in place of its own and its textures | the mesh's own |
 //! | `casts` | whether it throws a shadow; without, shadows on it do not harden at the contact | `true` |
 //! | `receives` | whether it takes shadows | `true` |
 //!

@@ -32,6 +32,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("render::a_picture_has_the_size_asked_for", a_picture_has_the_size_asked_for),
         gpu_trial("render::an_orbit_is_a_picture_a_frame", an_orbit_is_a_picture_a_frame),
         gpu_trial("render::an_animation_is_a_picture_a_frame", an_animation_is_a_picture_a_frame),
+        gpu_trial("render::a_camera_of_the_file_sees_it", a_camera_of_the_file_sees_it),
         gpu_trial("render::the_object_has_its_keys", the_object_has_its_keys),
         gpu_trial("render::views_are_pictures", views_are_pictures),
         gpu_trial("render::every_technique_shows_its_maps", every_technique_shows_its_maps),
@@ -120,6 +121,41 @@ fn an_animation_is_a_picture_a_frame() -> Outcome {
         return Err(format!("the stage that deforms is not timed: {report}"));
     }
     if pictures.len() == names.len() { Ok(()) } else { Err("the model does not move".into()) }
+}
+
+fn a_camera_of_the_file_sees_it() -> Outcome {
+    let mut file: Value = serde_json::from_str(&widening_face()).map_err(|error| error.to_string())?;
+    file["cameras"] = serde_json::json!([{ "type": "perspective", "perspective": { "yfov": 0.7, "znear": 0.1 } }]);
+    let at = [0.3, 0.3, 3.0];
+    file["nodes"] = serde_json::json!([
+        { "mesh": 0 },
+        { "camera": 0, "translation": at, "name": "front" },
+        { "camera": 0, "translation": at, "rotation": [0, 1, 0, 0], "name": "away" },
+        { "extensions": { "KHR_lights_punctual": { "light": 0 } }, "translation": [1, 2, 3] },
+    ]);
+    file["extensionsUsed"] = serde_json::json!(["KHR_lights_punctual"]);
+    file["extensions"] =
+        serde_json::json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "intensity": 50 }] } });
+    let folder = Folder::with(&[("face.gltf", &file.to_string()), ("empty.toml", "")]);
+
+    let small = "--size 64x40 --map-size 128";
+    for (name, arguments) in [("first", ""), ("front", "--camera front"), ("away", "--camera away")] {
+        folder.run(&format!("render face.gltf {small} {arguments} -o {name}.png")).stdout()?;
+    }
+    folder.run(&format!("render face.gltf {small} --camera front --animation widen --time 1 -o wide.png")).stdout()?;
+    let [first, front, away, wide] =
+        ["first", "front", "away", "wide"].map(|name| std::fs::read(folder.path(&format!("{name}.png"))).ok());
+    if first != front || front == away || wide == front || wide == away {
+        return Err("the cameras do not see what stands before them".into());
+    }
+    let report = folder.run("inspect face.gltf --json").json()?;
+    if report["cameras"][1]["name"] != "away" || report["lights"][0]["intensity"] != 50.0 {
+        return Err(format!("cameras and lights are not listed: {report}"));
+    }
+    let folder = Folder::with(&[("face.gltf", &file.to_string()), ("empty.toml", "")]);
+    folder.refuses("render face.gltf --camera roof", &["face.gltf", "roof", "\"front\", \"away\""])?;
+    folder.refuses("render empty.toml --camera roof", &["empty.toml", "one camera"])?;
+    folder.refuses("render boxes --camera roof", &["boxes", "one camera"])
 }
 
 fn the_object_has_its_keys() -> Outcome {

@@ -14,13 +14,7 @@ pub(crate) use depths::{camera_depths, cone_angle, depths_all_around, light_dept
 /// Boxes that are smaller count as points, so that no depth is too small for 32 bits.
 const SMALLEST: f64 = 1e-30;
 
-/// A scene around meshes that bring none.
-pub(crate) fn frame(meshes: Vec<SceneMesh>) -> Scene {
-    let bounds = meshes.iter().map(SceneMesh::bounds).fold(Bounds::EMPTY, Bounds::union);
-    frame_within(meshes, bounds)
-}
-
-/// The same where the meshes will move within these bounds.
+/// A scene around meshes that bring none; they are, or will move, within these bounds.
 pub(crate) fn frame_within(meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
     if room::is_room(&meshes, &bounds) {
         room::seen_from_within(meshes, bounds)
@@ -30,7 +24,7 @@ pub(crate) fn frame_within(meshes: Vec<SceneMesh>, bounds: Bounds) -> Scene {
 }
 
 /// The bounds, or a box of some size in their place where there is nothing or a single point.
-fn with_some_size(bounds: Bounds) -> Bounds {
+pub(crate) fn with_some_size(bounds: Bounds) -> Bounds {
     if bounds.is_empty() {
         return Bounds { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) };
     }
