@@ -72,6 +72,14 @@ fn a_picture_that_is_missing_is_a_warning() {
 }
 
 #[test]
+fn alpha_that_is_not_read_is_a_warning() {
+    for (mode, warnings) in [("OPAQUE", 0), ("MASK", 1), ("BLEND", 1)] {
+        let file = textured(&data_uri()).set("/materials/0/alphaMode", json!(mode)).loaded();
+        assert_eq!((file.warnings.len(), file.meshes[0].textured_parts.len()), (warnings, 1), "{:?}", file.warnings);
+    }
+}
+
+#[test]
 fn samplers_say_what_is_beyond_and_between() {
     let sampler = json!([{"magFilter": 9728, "wrapS": 33648, "wrapT": 33071}]);
     let mesh = mesh(textured(&data_uri()).set("/samplers", sampler).set("/textures/0/sampler", json!(0)));

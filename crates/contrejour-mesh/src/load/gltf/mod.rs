@@ -13,6 +13,7 @@ mod textures;
 use std::path::Path;
 
 use glam::DMat4;
+use gltf::material::AlphaMode;
 use gltf::{Document, Node};
 
 use super::{ReadFile, is_finite, read_file};
@@ -28,9 +29,10 @@ use textures::Textures;
 /// order; strips and fans become triangles. Vertex numbers count all vertices of all primitives in that order.
 /// Colours are base colour factors times `COLOR_0`. Base colour textures come with their pictures as the file has them,
 /// and with coordinates after `KHR_texture_transform`; a picture that is missing is a warning, and so are primitives
-/// without the coordinates that their texture asks for. Cameras in perspective and the lights of `KHR_lights_punctual`
-/// stand where their nodes are at rest. Morph targets have their default weights. A skinned mesh stands as its joints
-/// place it at rest, in world space, whatever its own node says (glTF 2.0, 3.7.3.3).
+/// without the coordinates that their texture asks for, or with an `alphaMode` that would cut or blend them. Cameras in
+/// perspective and the lights of `KHR_lights_punctual` stand where their nodes are at rest. Morph targets have their
+/// default weights. A skinned mesh stands as its joints place it at rest, in world space, whatever its own node says
+/// (glTF 2.0, 3.7.3.3).
 ///
 /// # Errors
 ///
@@ -68,6 +70,7 @@ fn load_with<T>(
         next_number: 0,
         primitives_left_out: 0,
         left_out: LeftOut::default(),
+        with_alpha: 0,
         textures: Textures::new(path, read_beside),
     };
     let mut file = MeshFile::default();
@@ -101,6 +104,8 @@ struct Loader<'a> {
     next_number: u32,
     primitives_left_out: usize,
     left_out: LeftOut,
+    /// Primitives whose alpha would cut or blend them.
+    with_alpha: usize,
     textures: Textures<'a>,
 }
 
@@ -158,6 +163,7 @@ impl Loader<'_> {
             let in_mesh = |triangle: [u32; 3]| triangle.map(|vertex| first_vertex + vertex);
             let first_triangle = mesh.triangles.len() as u32;
             mesh.triangles.extend(triangles.into_iter().map(in_mesh));
+            self.with_alpha += usize::from(primitive.material().alpha_mode() != AlphaMode::Opaque);
             if let Some((texture, coordinates)) = self.textures.of_primitive(&primitive, vertex_count, &self.data)? {
                 mesh.texture_coordinates.resize(first_vertex as usize, [0.0; 2]);
                 mesh.texture_coordinates.extend(coordinates);
@@ -196,6 +202,12 @@ impl Loader<'_> {
             warnings.push(format!(
                 "{} indices after the last whole triangle of a primitive are left out",
                 self.left_out.indices
+            ));
+        }
+        if self.with_alpha > 0 {
+            warnings.push(format!(
+                "{} primitives have alphaMode MASK or BLEND; alpha is not read: they are seen, and cast, whole",
+                self.with_alpha
             ));
         }
         warnings.extend(self.textures.into_warnings());
