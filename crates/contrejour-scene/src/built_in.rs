@@ -21,6 +21,7 @@ pub const BUILT_IN_SCENES: &[BuiltInScene] = &[
     BuiltInScene { name: "fence", toml: include_str!("../assets/scenes/fence.toml") },
     BuiltInScene { name: "boxes", toml: include_str!("../assets/scenes/boxes.toml") },
     BuiltInScene { name: "square", toml: include_str!("../assets/scenes/square.toml") },
+    BuiltInScene { name: "night", toml: include_str!("../assets/scenes/night.toml") },
 ];
 
 impl BuiltInScene {
