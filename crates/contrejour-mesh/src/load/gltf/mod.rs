@@ -21,7 +21,7 @@ use crate::{AnimatedModel, LoadError, MeshFile, MeshNode, TexturedPart, Triangle
 
 use accessor::Data;
 use primitive::LeftOut;
-use textures::Textures;
+use textures::{TexturedVertices, Textures};
 
 /// Loads a glTF or GLB file from its bytes; `path` is for messages and for the buffers beside it.
 ///
@@ -164,7 +164,9 @@ impl Loader<'_> {
             let first_triangle = mesh.triangles.len() as u32;
             mesh.triangles.extend(triangles.into_iter().map(in_mesh));
             self.with_alpha += usize::from(primitive.material().alpha_mode() != AlphaMode::Opaque);
-            if let Some((texture, coordinates)) = self.textures.of_primitive(&primitive, vertex_count, &self.data)? {
+            if let Some(TexturedVertices { texture, coordinates }) =
+                self.textures.of_primitive(&primitive, vertex_count, &self.data)?
+            {
                 mesh.texture_coordinates.resize(first_vertex as usize, [0.0; 2]);
                 mesh.texture_coordinates.extend(coordinates);
                 let triangles = first_triangle..mesh.triangles.len() as u32;

@@ -27,6 +27,13 @@ pub(super) struct Textures<'a> {
     warnings: Vec<String>,
 }
 
+/// The texture of a primitive.
+pub(super) struct TexturedVertices {
+    pub(super) texture: Arc<Texture>,
+    /// One pair for each vertex.
+    pub(super) coordinates: Vec<[f32; 2]>,
+}
+
 impl<'a> Textures<'a> {
     pub(super) fn new(path: &'a Path, read_beside: &'a ReadFile<'a>) -> Self {
         Self {
@@ -47,7 +54,7 @@ impl<'a> Textures<'a> {
         primitive: &Primitive,
         vertex_count: usize,
         data: &Data,
-    ) -> Result<Option<(Arc<Texture>, Vec<[f32; 2]>)>, LoadError> {
+    ) -> Result<Option<TexturedVertices>, LoadError> {
         let material = primitive.material();
         let Some(info) = material.pbr_metallic_roughness().base_color_texture() else {
             return Ok(None);
@@ -57,7 +64,7 @@ impl<'a> Textures<'a> {
         };
         let coordinates = read_coordinates(primitive, &info, vertex_count, data)?;
         self.without_coordinates += usize::from(coordinates.is_none());
-        Ok(coordinates.map(|coordinates| (texture, coordinates)))
+        Ok(coordinates.map(|coordinates| TexturedVertices { texture, coordinates }))
     }
 
     fn texture(&mut self, texture: &gltf::Texture, data: &Data) -> Result<Option<Arc<Texture>>, LoadError> {
