@@ -110,15 +110,18 @@ fn point_at(t: f32, low: vec4f, high: vec4f, delta: vec4f) -> vec4f {
 // A point in view but for rounding: the cut end of an edge that is far larger than the view can be anywhere, even in the
 // plane of the light.
 fn image_of(clip: vec4f) -> ImagePoint {
-    let depth = clamp(depth_of_clip(clip), view.near_depth, view.far_depth);
+    let depth = clamp(depth_of_clip(clip), least_depth(), view.far_depth);
     let w = select(clip.w, depth, view.perspective == 1u);
     let most = 1.0 + widest_ndc(view.width_max_ndc);
     return ImagePoint(clamp(clip.xy / w, vec2f(-most), vec2f(most)), q_of_depth(depth));
 }
 
 fn clip_by_depth(span: Span, low: vec4f, high: vec4f) -> Span {
-    let near = clip_by_plane(span, low.z, high.z);
-    return clip_by_plane(near, low.w - low.z, high.w - high.z);
+    let far = clip_by_plane(span, low.w - low.z, high.w - high.z);
+    if pancakes() {
+        return far;
+    }
+    return clip_by_plane(far, low.z, high.z);
 }
 
 fn clip_by_sides(span: Span, low: vec4f, high: vec4f, half_side: f32) -> Span {

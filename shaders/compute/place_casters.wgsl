@@ -137,15 +137,16 @@ const DEPTH_GUARD_NDC = 1e-5;
 // Conservative: a box near the frustum's edge counts as seen, and so does one that nothing is known of. What is beyond a
 // plane is linear in clip space, so that the box's corners decide for all of it, also behind the light.
 fn may_be_seen(id: u32, matrix: mat4x4f) -> bool {
-    if view.culls_casters == 0u || caster_places[id].casts != CASTER_IN_VIEW {
+    if (view.flags & VIEW_CULLS) == 0u || caster_places[id].casts != CASTER_IN_VIEW {
         return true;
     }
     let side = 1.0 + view.reach_ndc;
+    let has_front = (view.flags & VIEW_PANCAKES) == 0u;
     return !(is_beyond(id, matrix, vec4f(1.0, 0.0, 0.0, side))
         || is_beyond(id, matrix, vec4f(-1.0, 0.0, 0.0, side))
         || is_beyond(id, matrix, vec4f(0.0, 1.0, 0.0, side))
         || is_beyond(id, matrix, vec4f(0.0, -1.0, 0.0, side))
-        || is_beyond(id, matrix, vec4f(0.0, 0.0, 1.0, DEPTH_GUARD_NDC))
+        || (has_front && is_beyond(id, matrix, vec4f(0.0, 0.0, 1.0, DEPTH_GUARD_NDC)))
         || is_beyond(id, matrix, vec4f(0.0, 0.0, -1.0, 1.0 + DEPTH_GUARD_NDC)));
 }
 

@@ -25,5 +25,6 @@ fn fragment_warped_moments(@builtin(position) texel: vec4f) -> @location(0) vec4
 
 fn depth_share(texel: vec2f) -> f32 {
     let depth = view.depth_unit * textureLoad(shadow_depth, vec2u(texel), 0).x;
-    return (depth - view.near_depth) / (view.far_depth - view.near_depth);
+    // Casters in front of a cascade are at its nearest depth: moments of what is far away have no digits left.
+    return max((depth - view.near_depth) / (view.far_depth - view.near_depth), 0.0);
 }

@@ -84,7 +84,11 @@ fn kite_tip(first: vec2f, last: vec2f) -> vec2f {
 }
 
 fn clip_at(ndc: vec2f, q: f32) -> vec4f {
-    return vec4f(ndc, saturate(q * view.ndc_scale + view.ndc_offset), 1.0);
+    return vec4f(ndc, clip_z(q), 1.0);
+}
+
+fn clip_z(q: f32) -> f32 {
+    return saturate(q * view.ndc_scale + view.ndc_offset);
 }
 
 @fragment
@@ -92,6 +96,15 @@ fn fragment_smoothie_depth(vertex: SmoothieVertex) {
     if !is_kept(vertex) {
         discard;
     }
+}
+
+// Of a view that casters in front cast into: clip z that is interpolated between ends at its limits would be too far away.
+@fragment
+fn fragment_pancaked_smoothie_depth(vertex: SmoothieVertex) -> @builtin(frag_depth) f32 {
+    if !is_kept(vertex) {
+        discard;
+    }
+    return clip_z(blocker_q(vertex));
 }
 
 @fragment

@@ -1,5 +1,9 @@
 // A light view, and what its stages make of it for each caster. Meanings and units: the structs of the same names in the layout crate.
 
+// Bits of a view's flags.
+const VIEW_CULLS = 1u;
+const VIEW_PANCAKES = 2u;
+
 struct CasterLight {
     light_object: vec4u,
     light_clip_from_object: mat4x4f,
@@ -32,7 +36,7 @@ struct LightView {
     depth_unit: f32,
     warp_exponent: f32,
     caster_count: u32,
-    culls_casters: u32,
+    flags: u32,
     reach_ndc: f32,
     light_world: array<vec4u, 2>,
     light_clip_from_world: array<vec4u, 8>,

@@ -12,9 +12,22 @@ fn depth_of_q(q: f32) -> f32 {
     return select(q, -1.0 / q, view.perspective == 1u);
 }
 
-// The size of the largest q in view.
+// The size of the largest q of a receiver.
 fn q_unit() -> f32 {
     return select(view.far_depth, 1.0 / view.near_depth, view.perspective == 1u);
+}
+
+// Whether casters nearer to the light than the nearest depth cast too.
+fn pancakes() -> bool {
+    return (view.flags & VIEW_PANCAKES) != 0u;
+}
+
+// The largest 16-bit float: maps may hold depth as a share of the farthest in 16 bits.
+const LARGEST_HALF = 65504.0;
+
+// The nearest depth that a caster has. What is still nearer, in front of a cascade, is taken to be there.
+fn least_depth() -> f32 {
+    return select(view.near_depth, -LARGEST_HALF * view.far_depth, pancakes());
 }
 
 // World size of a texel at a depth.

@@ -3,7 +3,7 @@
 use bytemuck::{bytes_of, bytes_of_mut, cast_slice, cast_slice_mut};
 use contrejour_layout::{
     BLOCK_SIZE, Caster, CasterLight, CasterPlace, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
-    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SilhouetteEdge, WorkItem,
+    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SilhouetteEdge, VIEW_CULLS, WorkItem,
 };
 use contrejour_mesh::{FacePlanes, TopologyAwareMesh};
 use contrejour_plan::{Light, NearOne, ShadowSettings, View, ViewCounts, caster_place, views};
@@ -94,7 +94,8 @@ impl Frame {
             corners: 2 * edge_count,
         };
         // Casters out of view have silhouettes too.
-        frame.view = LightView { culls_casters: 0, ..view.light_view(settings, &counts) };
+        frame.view = view.light_view(settings, &counts);
+        frame.view.flags &= !VIEW_CULLS;
         frame.lit = vec![0; lit_words as usize];
         frame.recheck_words = vec![RecheckWord::default(); lit_words as usize];
         frame.outline_sides = vec![0; outline_words as usize];

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use contrejour_plan::{Light, LightKind};
+use contrejour_plan::{CascadeSettings, Eye, Light, LightKind, ShadowSettings, View, cascade_views};
 use glam::DVec3;
 
 use crate::meshes::TestMesh;
@@ -60,6 +60,27 @@ pub fn lamps(mesh: &TestMesh) -> Vec<Light> {
         Light { kind, color: [1.0; 3] }
     });
     lamps.into_iter().filter(|lamp| lamp.validate().is_ok()).collect()
+}
+
+/// Cascades of an eye amid a mesh, by parallel light from two sides: most of what casts is in front of their nearest depth.
+/// None where they have no place within 32-bit numbers.
+pub fn cascades(mesh: &TestMesh) -> Vec<View> {
+    let (middle, radius) = mesh.middle_and_radius();
+    let views = [DVec3::new(0.3, 1.0, 0.2), DVec3::new(-1.0, 0.1, 0.4)].map(|towards_light| {
+        let cascades = CascadeSettings { count: 2, caster_margin: 0.0, ..CascadeSettings::DEFAULT };
+        let kind = LightKind::Cascaded { towards_light, angular_radius: 0.02, cascades };
+        let eye = Eye {
+            position: middle - 0.3 * radius * towards_light,
+            forward: DVec3::new(1.0, 0.2, -0.5),
+            fov_y: 1.0,
+            aspect: 1.4,
+            near: 0.1 * radius,
+            far: 0.9 * radius,
+        };
+        let seen = cascade_views(&Light { kind, color: [1.0; 3] }, &eye, &ShadowSettings::default());
+        seen.map(|seen| seen.cascades).unwrap_or_default()
+    });
+    views.into_iter().flatten().map(|cascade| cascade.view).collect()
 }
 
 /// A spot at a point that looks at a target, wide enough to hold most of what is around it; parallel light from there
@@ -127,6 +148,7 @@ mod tests {
                 assert_eq!(light.validate(), Ok(()), "{}: {light:?}", mesh.name);
             }
             assert_eq!(lamps(mesh).len(), 2, "{}", mesh.name);
+            assert_eq!(cascades(mesh).len(), 4, "{}", mesh.name);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The lights of a scene: what is known of each, and what it has on the device.
 
-use contrejour_layout::{Counters, LightView, ReceiverView};
+use contrejour_layout::{Counters, LightView, ReceiverView, VIEW_CULLS};
 use contrejour_plan::{
     BufferKind, Capacity, DeviceFacts, FramePlan, LeftOut, Light, ObjectBox, Omitted, Outputs, PlanError, PlanInput,
     Reason, SceneFacts, Stage, View, ViewChoice, guard_ndc, views_with_guard,
@@ -240,12 +240,12 @@ impl LightState {
 impl Records {
     fn new(views: &[View], plan: &FramePlan) -> Self {
         // The list of silhouette edges does not end where the maps do.
-        let culls_casters = (plan.outputs != Outputs::Silhouettes).into();
+        let without = if plan.outputs == Outputs::Silhouettes { VIEW_CULLS } else { 0 };
         let has_edges = plan.has_stage(Stage::DetectSilhouette);
         let light_view = |view: &View, page: usize| {
             let record = view.light_view(&plan.settings, &plan.pages[page].counts);
             let edge_block_count = if has_edges { record.edge_block_count } else { 0 };
-            LightView { culls_casters, edge_block_count, ..record }
+            LightView { flags: record.flags & !without, edge_block_count, ..record }
         };
         let of_page = |page| views.iter().map(move |view| light_view(view, page));
         Self {

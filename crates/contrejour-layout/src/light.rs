@@ -77,8 +77,8 @@ shared_struct! {
         warp_exponent: f32,
         /// Casters.
         caster_count: u32,
-        /// 1 where casters outside the frustum are left out, else 0.
-        culls_casters: u32,
+        /// Bits [`VIEW_CULLS`] and [`VIEW_PANCAKES`].
+        flags: u32,
         /// How far outside the frustum's sides a caster still matters, in NDC: smoothie width and filter texels.
         reach_ndc: f32,
         /// The homogeneous light in the world: x, y, z, w as 64-bit floats, two to a row, each its low word first.
@@ -87,6 +87,13 @@ shared_struct! {
         light_clip_from_world: [[u32; 4]; 8],
     }
 }
+
+/// Bit of [`LightView::flags`]: casters outside the frustum are left out.
+pub const VIEW_CULLS: u32 = 1;
+
+/// Bit of [`LightView::flags`]: casters nearer to the light than the nearest depth cast too. They are drawn at the nearest
+/// depth in clip space and keep their own linear depth. Orthographic views alone have it.
+pub const VIEW_PANCAKES: u32 = 2;
 
 shared_struct! {
     /// What the visibility function needs to look up a receiver in the maps of a light view. A uniform.

@@ -11,7 +11,7 @@ use glam::{Vec2, Vec4, Vec4Swizzles};
 use crate::caster_position::scaled_position;
 use crate::image_plane::{clip_from_object, clockwise, counter_clockwise, image_direction};
 use crate::light_outline::widest_ndc;
-use crate::view_depth::{depth_of_clip, q_of_depth, smoothie_width};
+use crate::view_depth::{depth_of_clip, least_depth, pancakes, q_of_depth, smoothie_width};
 
 /// The stage `extrude_edges`: silhouette edges to quads.
 pub struct ExtrudeEdges<'a> {
@@ -74,7 +74,7 @@ impl ExtrudeEdges<'_> {
         };
 
         // Clip by depth first, since the width that widens the frustum depends on it.
-        let depth_span = segment.clip_by_depth(Span { begin: 0.0, end: 1.0 })?;
+        let depth_span = segment.clip_by_depth(Span { begin: 0.0, end: 1.0 }, pancakes(self.view))?;
         let width_at = |t| smoothie_width(self.view, self.image_of(segment.at(t)).1);
         let width = width_at(depth_span.begin).max(width_at(depth_span.end));
         let span = segment.clip_by_sides(depth_span, 1.0 + widest_ndc(self.view, width))?;
@@ -108,7 +108,7 @@ impl ExtrudeEdges<'_> {
     /// NDC and q of a point that is in view but for rounding: the cut end of an edge that is far larger than the view can
     /// be anywhere, even in the plane of the light.
     fn image_of(&self, clip: Vec4) -> (Vec2, f32) {
-        let depth = depth_of_clip(self.view, clip).max(self.view.near_depth).min(self.view.far_depth);
+        let depth = depth_of_clip(self.view, clip).max(least_depth(self.view)).min(self.view.far_depth);
         let w = if self.view.perspective == 1 { depth } else { clip.w };
         let most = Vec2::splat(1.0 + widest_ndc(self.view, self.view.width_max_ndc));
         ((clip.xy() / w).max(-most).min(most), q_of_depth(self.view, depth))
@@ -141,11 +141,12 @@ impl Segment {
         self.low + t * self.delta
     }
 
-    /// What is left between the near and the far plane; none where nothing is.
-    fn clip_by_depth(&self, span: Span) -> Option<Span> {
+    /// What is left between the near and the far plane, or before the far one where casters in front cast too; none where
+    /// nothing is.
+    fn clip_by_depth(&self, span: Span, pancakes: bool) -> Option<Span> {
         let Self { low, high, .. } = self;
-        clip_by_plane(span, low.z, high.z)
-            .and_then(|span| clip_by_plane(span, low.w - low.z, high.w - high.z))
+        clip_by_plane(span, low.w - low.z, high.w - high.z)
+            .and_then(|span| if pancakes { Some(span) } else { clip_by_plane(span, low.z, high.z) })
             .filter(Span::has_length)
     }
 

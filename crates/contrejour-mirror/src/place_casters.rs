@@ -1,6 +1,8 @@
 //! Brings the light and its clip space into the space of each caster, and leaves out casters that the view can't see.
 
-use contrejour_layout::{CASTER_IN_VIEW, CASTER_NEVER, CasterLight, CasterPlace, Counters, LightView};
+use contrejour_layout::{
+    CASTER_IN_VIEW, CASTER_NEVER, CasterLight, CasterPlace, Counters, LightView, VIEW_CULLS, VIEW_PANCAKES,
+};
 
 /// The stage `place_casters`: where casters stand to what the view's stages need of each.
 pub struct PlaceCasters<'a> {
@@ -130,18 +132,22 @@ fn has_image(matrix: &Columns) -> bool {
 const DEPTH_GUARD_NDC: f32 = 1e-5;
 
 fn may_be_seen(view: &LightView, place: &CasterPlace, matrix: &Columns) -> bool {
-    if view.culls_casters == 0 || place.casts != CASTER_IN_VIEW {
+    if view.flags & VIEW_CULLS == 0 || place.casts != CASTER_IN_VIEW {
         return true;
     }
     let side = 1.0 + view.reach_ndc;
+    let front = [0.0, 0.0, 1.0, DEPTH_GUARD_NDC];
     let planes = [
         [1.0, 0.0, 0.0, side],
         [-1.0, 0.0, 0.0, side],
         [0.0, 1.0, 0.0, side],
         [0.0, -1.0, 0.0, side],
-        [0.0, 0.0, 1.0, DEPTH_GUARD_NDC],
         [0.0, 0.0, -1.0, 1.0 + DEPTH_GUARD_NDC],
     ];
+    let has_front = view.flags & VIEW_PANCAKES == 0;
+    if has_front && is_beyond(place, matrix, front) {
+        return false;
+    }
     !planes.into_iter().any(|plane| is_beyond(place, matrix, plane))
 }
 

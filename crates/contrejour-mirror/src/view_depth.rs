@@ -1,6 +1,6 @@
 //! Depth on the light's image plane. `q` is linear there: `-1 / z` in a perspective view, `z` in an orthographic one.
 
-use contrejour_layout::LightView;
+use contrejour_layout::{LightView, VIEW_PANCAKES};
 use glam::Vec4;
 
 /// Smoothie width at a blocker's `q`, in NDC, for a disk of light.
@@ -22,6 +22,19 @@ pub(crate) fn q_of_depth(view: &LightView, depth: f32) -> f32 {
         return -1.0 / depth;
     }
     depth
+}
+
+/// Whether casters nearer to the light than the nearest depth cast too.
+pub(crate) fn pancakes(view: &LightView) -> bool {
+    view.flags & VIEW_PANCAKES != 0
+}
+
+/// The largest 16-bit float: maps may hold depth as a share of the farthest in 16 bits.
+const LARGEST_HALF: f32 = 65_504.0;
+
+/// The nearest depth that a caster has. What is still nearer, in front of a cascade, is taken to be there.
+pub(crate) fn least_depth(view: &LightView) -> f32 {
+    if pancakes(view) { -LARGEST_HALF * view.far_depth } else { view.near_depth }
 }
 
 #[cfg(test)]

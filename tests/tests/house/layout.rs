@@ -30,6 +30,8 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("CASTER_NEVER", layout::CASTER_NEVER),
     ("CASTER_ALWAYS", layout::CASTER_ALWAYS),
     ("CASTER_IN_VIEW", layout::CASTER_IN_VIEW),
+    ("VIEW_CULLS", layout::VIEW_CULLS),
+    ("VIEW_PANCAKES", layout::VIEW_PANCAKES),
 ];
 
 /// Compares the structs of a module with those of the same names in Rust; returns the names that it has.

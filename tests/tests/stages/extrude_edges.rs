@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use contrejour_layout::{Counters, OWN_END_HIGH, Quad};
+use contrejour_layout::{Counters, OWN_END_HIGH, Quad, VIEW_PANCAKES};
 use contrejour_plan::ViewCounts;
 use contrejour_tests::ball::Ball;
 use contrejour_tests::chain::{Fault, check_each_is_found};
@@ -46,8 +46,8 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
     compare_with_twin(gpu, &stage(gpu, "extrude_edges"))
 }
 
-/// Clips of an edge that leave it whole.
-const FAULTS: [Fault; 4] = [
+/// Clips of an edge that leave it whole, or cut off what casts.
+const FAULTS: [Fault; 6] = [
     Fault::Replaced {
         stage: "extrude_edges",
         piece: "clip_by_depth(Span(0.0, 1.0), low_clip, high_clip);",
@@ -60,6 +60,13 @@ const FAULTS: [Fault; 4] = [
     },
     // One that cuts off what reaches into the map of a point light.
     Fault::Replaced { stage: "extrude_edges", piece: "1.0 + widest_ndc(width)", fault: "1.0 + width" },
+    // One that cuts off what is in front of a cascade, and one that moves it there.
+    Fault::Replaced { stage: "extrude_edges", piece: "if pancakes() {\n        return far;\n    }", fault: "" },
+    Fault::Replaced {
+        stage: "extrude_edges",
+        piece: "clamp(depth_of_clip(clip), least_depth(), view.far_depth)",
+        fault: "clamp(depth_of_clip(clip), view.near_depth, view.far_depth)",
+    },
     // And an edge whose image is a point that nobody counts.
     Fault::Replaced { stage: "extrude_edges", piece: "atomicAdd(&counters.point_edges, 1u);", fault: "" },
 ];
@@ -177,7 +184,9 @@ fn clip(frame: &Frame, quad: &Quad) -> Option<Clipped> {
     let (high, _) = clip_and_delta(frame, quad.caster, quad.high_vertex, quad.low_vertex);
     let one = Ball::exact(1.0);
     let mut span = Span { begin: None, end: None };
-    span.cut(low[2], high[2])?;
+    if frame.view.flags & VIEW_PANCAKES == 0 {
+        span.cut(low[2], high[2])?;
+    }
     span.cut(low[3] - low[2], high[3] - high[2])?;
     let (near_end, far_end) = span.ends(&low, &high, &delta);
     let width_at = |clip: &Clip| width_of(&frame.view, q_of(&frame.view, clip));

@@ -34,7 +34,7 @@ pub fn trials() -> Vec<Trial> {
 const FAULTS: [Fault; 2] = [
     Fault::Replaced {
         stage: "extrude_edges",
-        piece: "clamp(depth_of_clip(clip), view.near_depth, view.far_depth)",
+        piece: "clamp(depth_of_clip(clip), least_depth(), view.far_depth)",
         fault: "depth_of_clip(clip)",
     },
     Fault::Replaced {

@@ -5,7 +5,7 @@ use contrejour_tests::chain::wgsl_of;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::Outcome;
-use contrejour_tests::lights::{lamps, lights};
+use contrejour_tests::lights::{cascades, lamps, lights};
 use contrejour_tests::meshes::{TestMesh, TestPart, shapes, shared_named, tiny};
 use contrejour_tests::random::Random;
 use contrejour_tests::stage_run::{Outputs, StageRun};
@@ -64,6 +64,9 @@ fn for_each_case_of(meshes: &[TestMesh], stage: &str, mut check: impl FnMut(&Cas
             for face in LAMP_FACES {
                 check_view(mesh, format!("lamp {index}, {face:?}"), &of_light(lamp)[face.index()])?;
             }
+        }
+        for (index, view) in cascades(mesh).iter().enumerate().skip(1).step_by(2) {
+            check_view(mesh, format!("cascade {index}"), view)?;
         }
     }
     Ok(())

@@ -1,13 +1,15 @@
 //! The light and its clip space in each caster's space, bit by bit, and who is left out.
 
-use contrejour_layout::{CASTER_IN_VIEW, CasterLight, Counters};
-use contrejour_plan::{NearOne, ObjectBox, ShadowSettings, View, caster_light, caster_place, views};
+use contrejour_layout::{CASTER_IN_VIEW, CasterLight, Counters, VIEW_CULLS};
+use contrejour_plan::{
+    CastersInFront, NearOne, ObjectBox, Projection, ShadowSettings, View, caster_light, caster_place, views,
+};
 use contrejour_tests::chain::{Fault, check_each_is_found};
 use contrejour_tests::compare::compare_exact;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
-use contrejour_tests::lights::lights;
+use contrejour_tests::lights::{cascades, lights};
 use contrejour_tests::meshes::shapes;
 use contrejour_tests::object_light::ObjectLight;
 use contrejour_tests::random::Random;
@@ -34,10 +36,13 @@ const WRONG_DIGITS: [Fault; 2] = [
 ];
 
 /// Casters that are left out, or are not, at the wrong place.
-const WRONG_SIDES: [Fault; 3] = [
+const WRONG_SIDES: [Fault; 5] = [
     replaced("let side = 1.0 + view.reach_ndc;", "let side = 1.0;"),
     replaced("|| is_beyond(id, matrix, vec4f(-1.0, 0.0, 0.0, side))", ""),
     replaced("dot(normal, middle) + dot(abs(normal), half_size)", "dot(normal, middle)"),
+    // Cascades have no front, and others have one.
+    replaced("let has_front = (view.flags & VIEW_PANCAKES) == 0u;", "let has_front = true;"),
+    replaced("let has_front = (view.flags & VIEW_PANCAKES) == 0u;", "let has_front = false;"),
 ];
 
 const fn replaced(piece: &'static str, fault: &'static str) -> Fault {
@@ -48,9 +53,9 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "place_casters");
     let mut left_out = 0;
     for_each_case("place_casters", |case| {
-        for culls_casters in [0, 1] {
+        for culls in [0, VIEW_CULLS] {
             let mut frame = case.frame.clone();
-            frame.view.culls_casters = culls_casters;
+            frame.view.flags = frame.view.flags & !VIEW_CULLS | culls;
             compare(gpu, &stage, &mut frame)?;
             left_out += frame.view.caster_count - frame.counters.casters;
         }
@@ -138,11 +143,11 @@ fn place(random: &mut Random, index: usize) -> (DMat4, NearOne) {
 /// Boxes all around a view: those that the CPU sees are seen, and of the others hardly any.
 fn culls(gpu: &Gpu, stage: &StageRun) -> Outcome {
     let mut random = Random::new(12);
-    let (mut seen, mut unseen) = (0, 0);
+    let (mut seen, mut unseen, mut in_front) = (0, 0, 0);
+    let settings = ShadowSettings::default();
     for mesh in shapes() {
-        for light in lights(&mesh) {
-            let settings = ShadowSettings::default();
-            let view = views(&light).map_err(|error| error.to_string())?[0];
+        let of_lights = lights(&mesh).into_iter().map(|light| views(&light).expect("good lights")[0]);
+        for view in of_lights.chain(cascades(&mesh)) {
             let boxes: Vec<_> = (0..100).map(|_| random_box(&view, &mut random)).collect();
             let (mut frame, _) =
                 frame_of(&view, boxes.iter().map(|bounds| (bounds.world_from_object, NearOne::IDENTITY)));
@@ -162,13 +167,25 @@ fn culls(gpu: &Gpu, stage: &StageRun) -> Outcome {
                         return Err(format!("left out: {bounds:?}"));
                     }
                     1 if !view.can_see(&grown(bounds, NEARLY), reach_ndc) => return Err(format!("kept: {bounds:?}")),
+                    1 if view.casters_in_front == CastersInFront::Pancaked => {
+                        in_front += u32::from(is_in_front(&view, bounds));
+                    }
                     0 => unseen += 1,
                     _ => seen += 1,
                 }
             }
         }
     }
-    if seen > 500 && unseen > 500 { Ok(()) } else { Err(format!("{seen} boxes are seen, {unseen} are not")) }
+    if seen > 500 && unseen > 500 && in_front > 50 {
+        return Ok(());
+    }
+    Err(format!("{seen} boxes are seen, {in_front} of them in front of cascades, {unseen} are not"))
+}
+
+/// Whether all of a box is nearer to the light than a view's nearest depth.
+fn is_in_front(view: &View, bounds: &ObjectBox) -> bool {
+    let clipped = View { casters_in_front: CastersInFront::Clipped, ..*view };
+    !clipped.can_see(bounds, 1e6)
 }
 
 /// What a box may be larger or smaller by, as a share of its size, before it counts as seen or unseen.
@@ -187,7 +204,8 @@ fn random_box(view: &View, random: &mut Random) -> ObjectBox {
     let depth = view.near_depth + (0.5 + 0.8 * random.signed()) * (view.far_depth - view.near_depth);
     let ndc = DVec3::new(x, y, view.q_of_depth(depth) * view.ndc_scale() + view.ndc_offset());
     let middle = view.light_clip_from_world.inverse().project_point3(ndc);
-    let size = 10.0_f64.powf(random.signed() - 1.5) * view.half_side * view.q_of_depth(depth).abs().recip().min(depth);
+    let half_side = view.half_side * if view.projection == Projection::Perspective { depth } else { 1.0 };
+    let size = 10.0_f64.powf(random.signed() - 1.5) * half_side;
     let [min, max] = [-1.0, 1.0].map(|sign| [(); 3].map(|()| (sign * (0.1 + random.signed().abs())) as f32));
     let turn = DQuat::from_rotation_arc(DVec3::Y, DVec3::new(random.signed(), random.signed(), 1.0).normalize());
     let world_from_object = DMat4::from_scale_rotation_translation(DVec3::splat(size), turn, middle);

@@ -1,7 +1,7 @@
 //! The pipelines of a frame.
 
 use super::{Pass, Stage};
-use crate::{AlphaRemap, Technique};
+use crate::{AlphaRemap, CastersInFront, Technique};
 
 /// A pipeline that the frame needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,13 +37,21 @@ impl PipelinePlan {
     }
 
     /// One for each draw of the pass.
-    pub(super) fn of_pass(pass: Pass, technique: &Technique) -> Vec<Self> {
+    pub(super) fn of_pass(pass: Pass, technique: &Technique, casters_in_front: CastersInFront) -> Vec<Self> {
+        let is_pancaked = casters_in_front == CastersInFront::Pancaked;
         let (vertices, fragment): (&[_], _) = match pass {
+            Pass::HardwareShadowMap if is_pancaked => {
+                (&["vertex_shadow_map"], Some("fragment_pancaked_hardware_depth"))
+            }
             Pass::HardwareShadowMap => (&["vertex_shadow_map"], None),
+            Pass::ShadowMap if is_pancaked => (&["vertex_shadow_map"], Some("fragment_pancaked_shadow_map")),
             Pass::ShadowMap => (&["vertex_shadow_map"], Some("fragment_shadow_map")),
             Pass::Moments if technique.is_warped() => (&["vertex_full_screen"], Some("fragment_warped_moments")),
             Pass::Moments => (&["vertex_full_screen"], Some("fragment_moments")),
             Pass::BlurredMoments => (&["vertex_full_screen"], Some("fragment_blurred_moments")),
+            Pass::SmoothieDepth if is_pancaked => {
+                (&["vertex_quad", "vertex_corner"], Some("fragment_pancaked_smoothie_depth"))
+            }
             Pass::SmoothieDepth => (&["vertex_quad", "vertex_corner"], Some("fragment_smoothie_depth")),
             Pass::SmoothieAlpha => (&["vertex_quad", "vertex_corner"], Some("fragment_smoothie_alpha")),
             Pass::SmoothieBuffer => (&["vertex_quad", "vertex_corner"], Some("fragment_smoothie_buffer")),

@@ -7,7 +7,7 @@ use super::{
     BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, MeshPiece, Omitted, Outputs, PagePlan, Pass, PipelinePlan,
     PlanError, Reason, SceneFacts, Stage, TextureKind, TexturePlan, VisibilityKind,
 };
-use crate::{ShadowSettings, View, ViewCounts};
+use crate::{CastersInFront, ShadowSettings, View, ViewCounts};
 
 /// What a plan is made from.
 #[derive(Clone, Copy, Debug)]
@@ -106,7 +106,8 @@ impl FramePlan {
         let textures = passes.iter().flat_map(|pass| pass.fills());
         let textures = textures.map(|kind| TexturePlan::new(*kind, settings, device, layers(kind))).collect();
         let of_stages = stages.iter().map(|stage| PipelinePlan::of_stage(*stage));
-        let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, &settings.technique));
+        let in_front = casters_in_front(input.views);
+        let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, &settings.technique, in_front));
         let pipelines = of_stages.chain(of_passes).collect();
 
         let has_edges = kinds.contains(&BufferKind::Edges);
@@ -169,6 +170,11 @@ impl FramePlan {
 /// Whether the light has a size: all its views show the same one.
 pub(super) fn has_size(input: &PlanInput<'_>) -> bool {
     input.views.iter().any(|view| view.light_size > 0.0)
+}
+
+/// What becomes of casters in front of the views, which are alike in this.
+fn casters_in_front(views: &[View]) -> CastersInFront {
+    views.first().map_or(CastersInFront::Clipped, |view| view.casters_in_front)
 }
 
 /// Whether a stage or a pass binds a buffer. Receivers look the maps up through the receiver view.

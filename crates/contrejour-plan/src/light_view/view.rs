@@ -28,9 +28,11 @@ pub enum CastersInFront {
     Clipped,
     /// They cast. Only cascades, which are orthographic, do so.
     ///
-    /// Where a clip z below 0 would be clipped, it becomes 0, vertex by vertex or, where the device can do so, pixel by
-    /// pixel: an image that is pressed flat. Linear depth stays what it is, less than the nearest depth and maybe
-    /// negative: shadow map and quads are made from it, and neither is clipped at or moved to the nearest depth.
+    /// Where a clip z below 0 would be clipped, it becomes 0, fragment by fragment: an image that is pressed flat. Linear
+    /// depth stays what it is, less than the nearest depth and maybe negative: shadow map and quads are made from it, and
+    /// neither is clipped at or moved to the nearest depth. What is more than 65504 times the farthest depth in front is
+    /// taken to be there. Moments and hardware depth have no more than the nearest depth: percentage-closer soft
+    /// shadows and variance shadow maps take a penumbra from in front for that of a caster there.
     Pancaked,
 }
 

@@ -2,8 +2,9 @@ use glam::{DMat4, DVec3};
 
 use super::*;
 use crate::{
-    AlphaRemap, CasterFacts, DepthPrecision, Light, LightKind, MapSampler, MeshFacts, ObjectBox, PagedCaster,
-    SettingsError, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, TextureFormat, VarianceSettings, views,
+    AlphaRemap, CasterFacts, DepthPrecision, EntryPoints, Light, LightKind, MapSampler, MeshFacts, ObjectBox,
+    PagedCaster, SettingsError, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, TextureFormat,
+    VarianceSettings, views,
 };
 
 /// A closed cube of 12 faces: 18 edges, 6 of them coplanar diagonals that can be in no silhouette.
@@ -564,6 +565,27 @@ fn six_views_have_a_layer_each() {
     let plan = case.good();
     let layers = |kind| plan.texture(kind).map(|texture| texture.layers);
     assert_eq!((layers(TextureKind::Moments), layers(TextureKind::ShadowDepth)), (Some(6), Some(1)));
+}
+
+#[test]
+fn fragments_write_the_depth_of_casters_in_front() {
+    let fragments = |technique: &str, view: View| {
+        let mut case = Case::new(cube_scene());
+        case.views = vec![view; 3];
+        case.settings.technique = technique.parse().expect("listed");
+        let fragments = case.good().pipelines.into_iter().filter_map(|pipeline| match pipeline.entry_points {
+            EntryPoints::Raster { fragment, .. } => Some(fragment),
+            EntryPoints::Compute(_) => None,
+        });
+        fragments.collect::<Vec<_>>()
+    };
+    let pancaked = View { casters_in_front: CastersInFront::Pancaked, ..spot(0.2) };
+    let found = fragments("smoothies", pancaked);
+    let expected = ["fragment_pancaked_shadow_map", "fragment_pancaked_smoothie_depth", "fragment_smoothie_alpha"];
+    assert!(expected.iter().all(|name| found.contains(&Some(name))), "{found:?}");
+    assert!(fragments("smoothies", spot(0.2)).iter().flatten().all(|name| !name.contains("pancaked")));
+    assert_eq!(fragments("pcf", pancaked), [Some("fragment_pancaked_hardware_depth")]);
+    assert_eq!(fragments("pcf", spot(0.2)), [None]);
 }
 
 #[test]
