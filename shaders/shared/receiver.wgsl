@@ -3,6 +3,7 @@
 struct ReceiverView {
     light_clip_from_world: mat4x4f,
     light_world: vec4f,
+    eye_depth_from_world: vec4f,
     perspective: u32,
     map_size: u32,
     near_depth: f32,
@@ -20,7 +21,7 @@ struct ReceiverView {
     bleed_cut: f32,
     min_variance: f32,
     warp_exponent: f32,
+    blend_depth: f32,
+    end_depth: f32,
     unused_0: u32,
-    unused_1: u32,
-    unused_2: u32,
 }

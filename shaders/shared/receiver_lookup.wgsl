@@ -1,4 +1,5 @@
-// The one function for a receiver's shader: `contrejour_visibility(position_world, normal_world)`, 0 dark to 1 lit.
+// How a receiver looks into the maps of a view, for the one function of its shader: `contrejour_visibility(position_world,
+// normal_world)`, 0 dark to 1 lit, in one of the views' files.
 // Joined with one of the visibility files and one of the views' files, with `const CONTREJOUR_GROUP`, the bind group that
 // the caller names, and `const CONTREJOUR_VIEWS`, how many views the light has.
 // Every name here carries the library's, so that it meets none of the caller's.
@@ -25,11 +26,11 @@ struct ContrejourLookup {
 // The steepest slope that the slope-scaled bias follows; beyond, a surface is lit too flatly to matter.
 const CONTREJOUR_MAX_SLOPE = 64.0;
 
-// Visibility of the light from a point with a unit normal. Points outside the light's maps are lit; a side that is
+// Visibility of the light from a point with a unit normal, by one view. Points outside its maps are lit; a side that is
 // averted from the light is dark. Without a normal (zero) no side is.
-fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 {
-    contrejour_layer = contrejour_view_of(position_world);
-    contrejour_receiver_view = contrejour_receiver_views[contrejour_layer];
+fn contrejour_visibility_in_view(view: u32, position_world: vec3f, normal_world: vec3f) -> f32 {
+    contrejour_layer = view;
+    contrejour_receiver_view = contrejour_receiver_views[view];
     let lookup = contrejour_lookup(position_world, normal_world);
     if lookup.is_averted {
         return 0.0;

@@ -1,5 +1,5 @@
-// The view that shows a receiver, where a light has one.
+// Visibility where a light has one view.
 
-fn contrejour_view_of(position_world: vec3f) -> u32 {
-    return 0u;
+fn contrejour_visibility(position_world: vec3f, normal_world: vec3f) -> f32 {
+    return contrejour_visibility_in_view(0u, position_world, normal_world);
 }

@@ -1,5 +1,7 @@
 //! The harness of the tests: a shared device, stages run alone, meshes, lights, and comparers that can fail.
 
+pub mod ask;
+pub mod avenue;
 pub mod ball;
 pub mod chain;
 pub mod compare;

@@ -6,7 +6,7 @@ use contrejour_gpu::{
     CasterHandle, CasterInput, LightHandle, Maps, MeshHandle, Positions, PrepareError, ShadowOptions, Shadows, Untimed,
 };
 use contrejour_layout::{Corner, Counters, Quad, SilhouetteEdge};
-use contrejour_plan::{BufferKind, FramePlan, Light};
+use contrejour_plan::{BufferKind, Eye, FramePlan, Light};
 use glam::DMat4;
 
 use crate::gpu::Gpu;
@@ -26,6 +26,7 @@ pub struct Pipeline<'a> {
     parts: Vec<(MeshHandle, DMat4)>,
     casters: Vec<CasterHandle>,
     light: Option<LightHandle>,
+    eye: Option<Eye>,
 }
 
 impl<'a> Pipeline<'a> {
@@ -43,7 +44,7 @@ impl<'a> Pipeline<'a> {
             parts.push((mesh, part.world_from_object));
             casters.push(shadows.add_caster(&input(parts[parts.len() - 1])).map_err(|error| error.to_string())?);
         }
-        Ok(Self { shadows, gpu, options: *options, parts, casters, light: None })
+        Ok(Self { shadows, gpu, options: *options, parts, casters, light: None, eye: None })
     }
 
     /// Prepares a frame with the light like this.
@@ -54,7 +55,7 @@ impl<'a> Pipeline<'a> {
     ///
     /// # Panics
     ///
-    /// When the light or the options are out of range.
+    /// When the light, the options or the eye are out of range.
     pub fn prepare(&mut self, light: &Light) -> Result<(), PrepareError> {
         match self.light {
             Some(handle) => self.shadows.set_light(handle, light).expect("the lights of the tests are good"),
@@ -63,7 +64,15 @@ impl<'a> Pipeline<'a> {
                 self.light = Some(handle.expect("lights and options of the tests are good"));
             }
         }
+        if let Some((light, eye)) = self.light.zip(self.eye) {
+            self.shadows.set_eye(light, &eye).expect("the eyes of the tests are good");
+        }
         self.shadows.prepare(&self.gpu.device, &self.gpu.queue)
+    }
+
+    /// Lets cascades follow an eye from the next frame on.
+    pub fn follow_eye(&mut self, eye: &Eye) {
+        self.eye = Some(*eye);
     }
 
     /// Moves a caster.

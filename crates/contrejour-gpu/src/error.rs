@@ -1,6 +1,6 @@
 //! What can go wrong, and what to do about it.
 
-use contrejour_plan::{LightError, PlanError, SettingsError};
+use contrejour_plan::{CascadeError, LightError, PlanError, SettingsError};
 
 use std::error::Error;
 
@@ -139,6 +139,9 @@ pub enum ShadowLightError {
     /// A setting is out of range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// The eye is out of range, or the maps are too small for cascades.
+    #[error(transparent)]
+    Cascades(CascadeError),
     /// The handle is of a light that was removed, or of another object.
     #[error("there is no {light:?} here: use the handle of `add_light`, until the light is removed")]
     UnknownLight {
@@ -147,10 +150,26 @@ pub enum ShadowLightError {
     },
 }
 
+impl From<CascadeError> for ShadowLightError {
+    fn from(error: CascadeError) -> Self {
+        match error {
+            CascadeError::Light(error) => Self::Light(error),
+            CascadeError::Settings(error) => Self::Settings(error),
+            other => Self::Cascades(other),
+        }
+    }
+}
+
 /// Why [`Shadows::prepare`](crate::Shadows::prepare) refuses.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PrepareError {
+    /// The maps of a cascaded light follow an eye, and none was given.
+    #[error("{light:?} is cascaded and has no eye: call `set_eye` with what the camera sees before `prepare`")]
+    NoEye {
+        /// The light.
+        light: LightHandle,
+    },
     /// The device can't hold what the frame needs.
     #[error(transparent)]
     Plan(#[from] PlanError),

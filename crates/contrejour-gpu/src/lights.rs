@@ -2,8 +2,8 @@
 
 use contrejour_layout::{Counters, LightView, ReceiverView, VIEW_CULLS};
 use contrejour_plan::{
-    BufferKind, Capacity, DeviceFacts, FramePlan, LeftOut, Light, ObjectBox, Omitted, Outputs, PlanError, PlanInput,
-    Reason, SceneFacts, Stage, View, ViewChoice, guard_ndc, views_with_guard,
+    BufferKind, Capacity, CascadeError, DeviceFacts, Eye, FramePlan, FrameViews, LeftOut, Light, LightKind, ObjectBox,
+    Omitted, Outputs, PlanError, PlanInput, Reason, SceneFacts, Stage, View, ViewChoice, frame_views,
 };
 
 use crate::error::ShadowLightError;
@@ -25,7 +25,11 @@ pub struct LightHandle(pub(crate) Key);
 pub(crate) struct LightState {
     pub options: ShadowOptions,
     pub choice: ViewChoice,
-    pub views: Vec<View>,
+    light: Light,
+    /// What cascades follow.
+    eye: Option<Eye>,
+    /// Without views while a cascaded light has no eye.
+    seen: FrameViews,
     /// What is made for it; `None` before the first frame.
     pub plan: Option<FramePlan>,
     pub frame: Frame,
@@ -53,8 +57,10 @@ fn shape(views: &[View]) -> (usize, bool) {
     (views.len(), views.iter().any(|view| view.light_size > 0.0))
 }
 
-fn views(light: &Light, options: &ShadowOptions) -> Result<Vec<View>, ShadowLightError> {
-    Ok(views_with_guard(light, guard_ndc(light, &options.settings))?)
+fn seen(light: &Light, eye: Option<&Eye>, options: &ShadowOptions) -> Result<FrameViews, ShadowLightError> {
+    light.validate()?;
+    let waits_for_eye = matches!(light.kind, LightKind::Cascaded { .. }) && eye.is_none();
+    if waits_for_eye { Ok(FrameViews::default()) } else { Ok(frame_views(light, eye, &options.settings)?) }
 }
 
 impl LightState {
@@ -66,7 +72,9 @@ impl LightState {
         Ok(Self {
             options: *options,
             choice: ViewChoice::of(&light.kind),
-            views: views(light, options)?,
+            light: *light,
+            eye: None,
+            seen: seen(light, None, options)?,
             plan: None,
             frame: Frame::default(),
             visibility: None,
@@ -85,16 +93,34 @@ impl LightState {
     ///
     /// The light is out of range; then nothing has changed.
     pub fn change(&mut self, light: &Light) -> Result<bool, ShadowLightError> {
-        let views = views(light, &self.options)?;
-        if self.views == views {
-            return Ok(false);
-        }
+        self.look(light, self.eye)
+    }
+
+    /// Lets cascades follow an eye; says whether that needs another plan.
+    ///
+    /// # Errors
+    ///
+    /// The eye is out of range, or the light has no cascades for it; then nothing has changed.
+    pub fn follow_eye(&mut self, eye: &Eye) -> Result<bool, ShadowLightError> {
+        eye.validate().map_err(CascadeError::from)?;
+        let light = self.light;
+        self.look(&light, Some(*eye))
+    }
+
+    fn look(&mut self, light: &Light, eye: Option<Eye>) -> Result<bool, ShadowLightError> {
+        let seen = seen(light, eye.as_ref(), &self.options)?;
         let choice = ViewChoice::of(&light.kind);
-        let needs_plan = shape(&self.views) != shape(&views) || self.choice != choice;
-        (self.views, self.choice) = (views, choice);
-        self.has_new_records = true;
-        self.is_due = true;
+        let needs_plan = shape(&self.seen.views) != shape(&seen.views) || self.choice != choice;
+        // Cascades move by whole texels: within one the maps stand, and only receivers learn of the eye.
+        self.is_due |= self.seen.views != seen.views;
+        self.has_new_records |= self.seen != seen;
+        (self.light, self.eye, self.seen, self.choice) = (*light, eye, seen, choice);
         Ok(needs_plan)
+    }
+
+    /// Whether it is cascaded and has no eye.
+    pub fn needs_eye(&self) -> bool {
+        self.seen.views.is_empty()
     }
 
     /// # Errors
@@ -108,14 +134,14 @@ impl LightState {
         shared: &[BufferKind],
     ) -> Result<FramePlan, PlanError> {
         let ShadowOptions { settings, outputs, .. } = &self.options;
-        let (views, outputs) = (&self.views[..], *outputs);
+        let (views, outputs) = (&self.seen.views[..], *outputs);
         FramePlan::new(&PlanInput { scene, views, settings, device, outputs, capacity, shared })
     }
 
     /// Makes what a plan lists for this light.
     pub fn follow(&mut self, device: &wgpu::Device, plan: FramePlan, (shared, pipelines): (&Buffers, &mut Pipelines)) {
-        let made = self.frame.follow(device, &plan, self.views.len(), (shared, pipelines));
-        self.readback.make_room(device, plan.pages.len() * self.views.len());
+        let made = self.frame.follow(device, &plan, self.seen.views.len(), (shared, pipelines));
+        self.readback.make_room(device, plan.pages.len() * self.seen.views.len());
         self.follow_visibility(device, &plan, made);
         self.is_due |= made.textures || self.plan.as_ref().is_none_or(|old| old.stages != plan.stages);
         self.has_new_records = true;
@@ -148,7 +174,7 @@ impl LightState {
     pub fn note_touched(&mut self, touched: &[Option<ObjectBox>]) {
         let sees = |bounds: &Option<ObjectBox>| {
             let Some(bounds) = bounds else { return true };
-            self.views.iter().any(|view| view.can_see(bounds, view.reach_ndc(&self.options.settings)))
+            self.seen.views.iter().any(|view| view.can_see(bounds, view.reach_ndc(&self.options.settings)))
         };
         // The list of silhouette edges does not end where the maps do.
         let is_everywhere = self.options.outputs == Outputs::Silhouettes && !touched.is_empty();
@@ -165,14 +191,14 @@ impl LightState {
         let Some(plan) = &mut self.plan else { return 0 };
         let mut bytes = 0;
         if std::mem::take(&mut self.has_new_records) {
-            self.records = Records::new(&self.views, plan);
+            self.records = Records::new(&self.seen, plan);
             let mut write = |(kind, page), data: &[u8]| {
                 if let Some(buffer) = self.frame.buffers.find(kind, page) {
                     queue.write_buffer(buffer, 0, data);
                     bytes += data.len() as u64;
                 }
             };
-            for (views, page) in self.records.light_views.chunks(self.views.len()).zip(0..) {
+            for (views, page) in self.records.light_views.chunks(self.seen.views.len()).zip(0..) {
                 write((BufferKind::LightView, page), bytemuck::cast_slice(views));
             }
             write((BufferKind::ReceiverView, 0), bytemuck::cast_slice(&self.records.receiver_views));
@@ -200,7 +226,7 @@ impl LightState {
     ) -> Recorded {
         let Some(plan) = &self.plan else { return Recorded::default() };
         let of_page = plan.pages.iter().map(|page| page.capacity());
-        let capacities = std::iter::repeat_n(of_page, self.views.len()).flatten().collect();
+        let capacities = std::iter::repeat_n(of_page, self.seen.views.len()).flatten().collect();
         let counted = if plan.stages.is_empty() { None } else { self.readback.begin(capacities) };
         self.is_due = false;
         self.frame.encode(encoder, (plan, shared, &self.records.light_views), counted, timer, after)
@@ -238,7 +264,8 @@ impl LightState {
 }
 
 impl Records {
-    fn new(views: &[View], plan: &FramePlan) -> Self {
+    fn new(seen: &FrameViews, plan: &FramePlan) -> Self {
+        let views = &seen.views;
         // The list of silhouette edges does not end where the maps do.
         let without = if plan.outputs == Outputs::Silhouettes { VIEW_CULLS } else { 0 };
         let has_edges = plan.has_stage(Stage::DetectSilhouette);
@@ -250,7 +277,7 @@ impl Records {
         let of_page = |page| views.iter().map(move |view| light_view(view, page));
         Self {
             light_views: (0..plan.pages.len()).flat_map(of_page).collect(),
-            receiver_views: views.iter().map(|view| view.receiver_view(&plan.settings)).collect(),
+            receiver_views: seen.receiver_views(&plan.settings),
         }
     }
 }

@@ -4,6 +4,7 @@ use contrejour_plan::{BufferKind, FramePlan, PlanError, SceneFacts};
 
 use crate::device_watch::OpenScopes;
 use crate::error::{DeviceError, PrepareError};
+use crate::lights::LightHandle;
 use crate::shadows::Shadows;
 
 impl Shadows {
@@ -14,13 +15,16 @@ impl Shadows {
     ///
     /// # Errors
     ///
-    /// The plans list more than the device allows; then nothing has changed, and the next prepare tries again. Where the
+    /// A cascaded light has no eye, or the plans list more than the device allows; then nothing has changed, and the next prepare tries again. Where the
     /// device itself fails ([`PrepareError::Device`]), what was made is dropped, and the next prepare makes all of it
     /// again; until then there are no maps, as before the first.
     pub fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), PrepareError> {
         self.watch.check(device)?;
         let late = self.watch.late();
         self.keep_if(late)?;
+        if let Some((key, _)) = self.lights.iter_mut().find(|(_, light)| light.needs_eye()) {
+            return Err(PrepareError::NoEye { light: LightHandle(key) });
+        }
         self.collect_counters();
         self.stats.set_up_bytes = 0;
         if self.is_stale {

@@ -14,7 +14,7 @@ use crate::{passes, stages};
 pub fn all() -> impl Iterator<Item = ShaderModule> {
     let compute = stages::ALL.iter().map(|stage| ShaderModule::of(stage.stage.name(), stage.wgsl));
     let scene = stages::SCENE.iter().map(|stage| ShaderModule::of(stage.stage.name(), stage.wgsl));
-    let both = VisibilityKind::examples().flat_map(|kind| ViewChoice::ALL.map(|choice| (kind, choice)));
+    let both = VisibilityKind::examples().flat_map(|kind| ViewChoice::EXAMPLES.map(|choice| (kind, choice)));
     let visibility = both.map(|(kind, choice)| ShaderModule {
         name: format!("visibility+{kind:?}+{choice:?}").into(),
         wgsl: pass_wgsl(kind, choice).into(),

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use contrejour_layout::Counters;
 use contrejour_mesh::TopologyAwareMesh;
-use contrejour_plan::{BufferKind, Capacity, DeviceFacts, FramePlan, Light};
+use contrejour_plan::{BufferKind, Capacity, DeviceFacts, Eye, FramePlan, Light};
 use glam::DMat4;
 
 use crate::casters::{CasterHandle, CasterInput, Casters};
@@ -125,7 +125,7 @@ impl Shadows {
         Ok(())
     }
 
-    /// Adds a light.
+    /// Adds a light. One that is cascaded needs an eye before the next frame; see [`set_eye`](Self::set_eye).
     ///
     /// # Errors
     ///
@@ -149,6 +149,20 @@ impl Shadows {
     pub fn set_light(&mut self, handle: LightHandle, light: &Light) -> Result<(), ShadowLightError> {
         let state = self.lights.get_mut(handle.0).ok_or(ShadowLightError::UnknownLight { light: handle })?;
         self.is_stale |= state.change(light)?;
+        Ok(())
+    }
+
+    /// Says which eye a light's cascades follow: the camera whose picture the light falls on. To be called in each frame in
+    /// which that moves or turns. Maps follow it by whole texels: while that moves none, they stand, and a frame uploads
+    /// where receivers are looked up and nothing else. Lights of other kinds keep it for when they become cascaded.
+    ///
+    /// # Errors
+    ///
+    /// The eye is out of range, the light's maps are too small for cascades, or there is no such light; then nothing has
+    /// changed.
+    pub fn set_eye(&mut self, handle: LightHandle, eye: &Eye) -> Result<(), ShadowLightError> {
+        let state = self.lights.get_mut(handle.0).ok_or(ShadowLightError::UnknownLight { light: handle })?;
+        self.is_stale |= state.follow_eye(eye)?;
         Ok(())
     }
 

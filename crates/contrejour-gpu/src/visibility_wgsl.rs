@@ -24,6 +24,7 @@ const SMOOTHIES_PACKED: &str = function!("visibility_smoothies", "receiver_texel
 
 const ONLY_VIEW: &str = wgsl!("shared/receiver_view_only");
 const CUBE_VIEWS: &str = wgsl!("shared/receiver_view_of_cube");
+const CASCADES: &str = wgsl!("shared/receiver_view_of_cascades");
 
 const PASS: &str = wgsl!("raster/visibility", "eye", "full_screen");
 
@@ -47,6 +48,7 @@ pub fn visibility_wgsl(kind: VisibilityKind, choice: ViewChoice, group: u32) -> 
     text.push_str(match choice {
         ViewChoice::Only => ONLY_VIEW,
         ViewChoice::CubeFace => CUBE_VIEWS,
+        ViewChoice::Cascade { .. } => CASCADES,
     });
     text
 }

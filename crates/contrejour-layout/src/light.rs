@@ -102,6 +102,9 @@ shared_struct! {
         light_clip_from_world: [f32; 16],
         /// The light in world space: position and 1, or direction towards the light and 0.
         light_world: [f32; 4],
+        /// A point's depth in the eye's view is the dot product with the point and 1. Zeros where the light is not
+        /// cascaded.
+        eye_depth_from_world: [f32; 4],
         /// 1 for a perspective view, 0 for an orthographic one.
         perspective: u32,
         /// Texels along a side of the square maps.
@@ -136,12 +139,12 @@ shared_struct! {
         min_variance: f32,
         /// Exponent of the moments' warp; 0 where depth is not warped.
         warp_exponent: f32,
+        /// Depth in the eye's view where a cascade begins to fade into the next one; 0 where the light is not cascaded.
+        blend_depth: f32,
+        /// Depth in the eye's view where a cascade ends; 0 where the light is not cascaded.
+        end_depth: f32,
         /// Zero.
         unused_0: u32,
-        /// Zero.
-        unused_1: u32,
-        /// Zero.
-        unused_2: u32,
     }
 }
 

@@ -69,7 +69,9 @@ pub mod prelude {
         ShadowOptions, Shadows, Untimed,
     };
     pub use contrejour_mesh::{BuildOptions, DeformingMesh, TopologyAwareMesh};
-    pub use contrejour_plan::{DepthBias, Light, LightKind, Outputs, ShadowSettings, SmoothieWidth, Technique};
+    pub use contrejour_plan::{
+        CascadeSettings, DepthBias, Eye, Light, LightKind, Outputs, ShadowSettings, SmoothieWidth, Technique,
+    };
 }
 
 /// The README's snippet, compiled.

@@ -46,7 +46,7 @@ pub fn all() -> Vec<Module> {
         let text: Vec<_> = files.iter().map(|file| shader_file(&format!("{file}.wgsl"))).collect();
         text.join("\n")
     };
-    let both = VisibilityKind::examples().flat_map(|kind| ViewChoice::ALL.map(|choice| (kind, choice)));
+    let both = VisibilityKind::examples().flat_map(|kind| ViewChoice::EXAMPLES.map(|choice| (kind, choice)));
     for (kind, choice) in both {
         // At the bind groups that the renderer's modules leave to the library.
         for (own, files, group) in [

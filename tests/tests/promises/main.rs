@@ -1,5 +1,6 @@
 //! The promises on the whole library, one file each.
 
+mod cascades;
 mod closed;
 mod deformed;
 mod device_trouble;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         no_gaps::trials(),
         smoothie_ways::trials(),
         lamp_borders::trials(),
+        cascades::trials(),
         left_out::trials(),
         peers::trials(),
         drawn_lights::trials(),

@@ -44,17 +44,23 @@ pub enum ViewChoice {
     Only,
     /// By the largest component of the direction from the light, as [`CubeFace::of`](crate::CubeFace::of) says.
     CubeFace,
+    /// By depth in the eye's view, as [`Cascades::at`](crate::Cascades::at) says.
+    Cascade {
+        /// How many there are.
+        count: u32,
+    },
 }
 
 impl ViewChoice {
-    /// Both ways.
-    pub const ALL: [Self; 2] = [Self::Only, Self::CubeFace];
+    /// Every way, for tests and tools.
+    pub const EXAMPLES: [Self; 3] = [Self::Only, Self::CubeFace, Self::Cascade { count: 4 }];
 
     /// How the views of a light are told apart.
     pub fn of(light: &LightKind) -> Self {
         match light {
+            LightKind::Spot { .. } | LightKind::Directional { .. } => Self::Only,
             LightKind::Point { .. } => Self::CubeFace,
-            _ => Self::Only,
+            LightKind::Cascaded { cascades, .. } => Self::Cascade { count: cascades.count },
         }
     }
 
@@ -63,6 +69,7 @@ impl ViewChoice {
         match self {
             Self::Only => 1,
             Self::CubeFace => CubeFace::ALL.len(),
+            Self::Cascade { count } => count as usize,
         }
     }
 }

@@ -1,5 +1,8 @@
 //! The views of a cascaded light.
 
+use contrejour_layout::ReceiverView;
+use glam::DVec4;
+
 use super::cascade_slices::{Sphere, split_depths};
 use super::eye::EyeError;
 use super::guard::guard_of_size;
@@ -17,6 +20,8 @@ const MIN_MAP_SIZE: u32 = 4;
 pub struct Cascades {
     /// One for each slice of the eye's view, the nearest first.
     pub cascades: Vec<Cascade>,
+    /// A point's depth in the eye's view is the dot product with the point and 1. World units.
+    pub eye_depth_from_world: DVec4,
 }
 
 /// A map and the slice of the eye's view that is looked up in it.
@@ -128,7 +133,9 @@ pub fn cascade_views(light: &Light, eye: &Eye, settings: &ShadowSettings) -> Res
         not_negative("angular radius' tangent over half a cascade's side", view.light_size)?;
         Ok(Cascade { view, begin_depth, blend_depth, end_depth })
     });
-    Ok(Cascades { cascades: cascades.collect::<Result<_, LightError>>()? })
+    let cascades = cascades.collect::<Result<_, LightError>>()?;
+    let axis = eye.axis_world();
+    Ok(Cascades { cascades, eye_depth_from_world: axis.extend(-axis.dot(eye.position)) })
 }
 
 impl Cascades {
@@ -139,6 +146,22 @@ impl Cascades {
         let next_share =
             if eye_depth > blend_depth { (eye_depth - blend_depth) / (end_depth - blend_depth) } else { 0.0 };
         Some(CascadeShare { cascade, next_share })
+    }
+
+    /// The views, from the eye outwards.
+    pub fn views(&self) -> Vec<View> {
+        self.cascades.iter().map(|cascade| cascade.view).collect()
+    }
+
+    /// What the visibility function needs of each.
+    pub fn receiver_views(&self, settings: &ShadowSettings) -> Vec<ReceiverView> {
+        let record = |cascade: &Cascade| ReceiverView {
+            eye_depth_from_world: self.eye_depth_from_world.as_vec4().to_array(),
+            blend_depth: cascade.blend_depth as f32,
+            end_depth: cascade.end_depth as f32,
+            ..cascade.view.receiver_view(settings)
+        };
+        self.cascades.iter().map(record).collect()
     }
 }
 

@@ -54,7 +54,12 @@ impl Eye {
         (self.fov_y / 2.0).tan() * self.aspect.hypot(1.0)
     }
 
-    pub(super) fn validate(&self) -> Result<(), EyeError> {
+    /// Checks every field against its range.
+    ///
+    /// # Errors
+    ///
+    /// The first field that is out of its range.
+    pub fn validate(&self) -> Result<(), EyeError> {
         const FINITE: &str = "finite numbers up to 1e30";
         const SIZE: &str = "a number from 1e-30 to 1e30";
         let require = |holds: bool, field, value, range| match holds {

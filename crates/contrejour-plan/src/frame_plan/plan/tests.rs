@@ -560,7 +560,7 @@ fn six_views_have_a_layer_each() {
     let kept = [TextureKind::ShadowDepth, TextureKind::SmoothieDepth, TextureKind::SmoothieAlpha];
     assert!(layers.iter().all(|(kind, layers)| *layers == if kept.contains(kind) { 6 } else { 1 }), "{layers:?}");
     assert_eq!(bytes(&plan, BufferKind::LightView), Some(6 * 256));
-    assert_eq!(bytes(&plan, BufferKind::ReceiverView), Some(6 * 160));
+    assert_eq!(bytes(&plan, BufferKind::ReceiverView), Some(6 * 176));
     case.settings.technique = "vsm".parse().expect("listed");
     let plan = case.good();
     let layers = |kind| plan.texture(kind).map(|texture| texture.layers);

@@ -106,10 +106,22 @@ fn blends_are_continuous() {
     assert_eq!(cascades.at(f64::NAN), None);
 
     let hard = cascades_of(&sun(|settings| settings.border_share = 0.0), &EYE);
-    let hard = Cascades { cascades: hard };
+    let hard = Cascades { cascades: hard, ..cascades };
     let end = hard.cascades[0].end_depth;
     assert_eq!(hard.at(end), Some(CascadeShare { cascade: 0, next_share: 0.0 }));
     assert_eq!(hard.at(end * 1.0001), Some(CascadeShare { cascade: 1, next_share: 0.0 }));
+}
+
+#[test]
+fn receivers_get_their_depth_and_the_borders() {
+    let cascades = cascade_views(&sun(|_| ()), &EYE, &ShadowSettings::default()).expect("a good sun and eye");
+    let records = cascades.receiver_views(&ShadowSettings::default());
+    let point = EYE.position + DVec3::new(1.0, -2.0, -7.0);
+    for (record, cascade) in records.iter().zip(&cascades.cascades) {
+        let depth = glam::Vec4::from(record.eye_depth_from_world).dot(point.as_vec3().extend(1.0));
+        assert!((f64::from(depth) - EYE.depth_of(point)).abs() < 1e-5);
+        assert_eq!([record.blend_depth, record.end_depth], [cascade.blend_depth as f32, cascade.end_depth as f32]);
+    }
 }
 
 /// What is not an offset by whole texels is the same to the bit, however the eye moves and turns.
