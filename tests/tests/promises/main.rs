@@ -1,5 +1,6 @@
 //! The promises on the whole library, one file each.
 
+mod cascade_borders;
 mod cascades;
 mod closed;
 mod deformed;
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         smoothie_ways::trials(),
         lamp_borders::trials(),
         cascades::trials(),
+        cascade_borders::trials(),
         left_out::trials(),
         peers::trials(),
         drawn_lights::trials(),
