@@ -9,7 +9,7 @@ use contrejour_gpu::{
     PrepareError, ShadowLightError, ShadowOptions, Shadows, ViewChoice, VisibilityKind,
 };
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError, TriangleMesh};
-use contrejour_plan::{Light, Outputs, ShadowSettings};
+use contrejour_plan::{Eye, Light, LightKind, Outputs, ShadowSettings};
 use contrejour_scene::{Scene, SceneMesh};
 use glam::DMat4;
 
@@ -177,18 +177,23 @@ impl CastShadows {
         Ok(self.shadows.add_light(&gpu.device, light_local, &options)?)
     }
 
-    /// Prepares a frame of the casters that it was made with, where they stand now, and with the lights like this.
+    /// Prepares a frame of the casters that it was made with, where they stand now, and with the lights like this; those that
+    /// are cascaded follow the eye.
     pub fn prepare<'a>(
         &mut self,
         gpu: &Gpu,
         casters: &Casters,
         lights_local: impl IntoIterator<Item = (LightHandle, &'a Light)>,
+        eye_local: &Eye,
     ) -> Result<(), PrepareShadowsError> {
         for (handle, caster) in self.handles.iter().zip(&casters.placed) {
             self.shadows.place_caster(*handle, &caster.local_from_object)?;
         }
         for (handle, light_local) in lights_local {
             self.shadows.set_light(handle, light_local)?;
+            if let LightKind::Cascaded { .. } = light_local.kind {
+                self.shadows.set_eye(handle, eye_local)?;
+            }
         }
         Ok(self.shadows.prepare(&gpu.device, &gpu.queue)?)
     }

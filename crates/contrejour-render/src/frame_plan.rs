@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use contrejour_gpu::{mesh_facts, mesh_pieces};
 use contrejour_plan::{
-    BufferKind, Capacity, CasterFacts, DeviceFacts, FramePlan, LightError, ObjectBox, Outputs, PlanError, PlanInput,
-    SceneFacts, guard_ndc, views_with_guard,
+    BufferKind, Capacity, CascadeError, CasterFacts, DeviceFacts, FramePlan, ObjectBox, Outputs, PlanError, PlanInput,
+    SceneFacts, frame_views,
 };
 use contrejour_scene::{Scene, SceneLight};
 
@@ -15,9 +15,9 @@ use crate::casters::{CasterTopologyError, Casters};
 /// Why there is no plan of a scene.
 #[derive(Debug, thiserror::Error)]
 pub enum FramePlanError {
-    /// The scene's light is no light.
+    /// A light of the scene is no light, or its cascades and the camera do not go together.
     #[error(transparent)]
-    Light(#[from] LightError),
+    Light(#[from] CascadeError),
     /// A mesh that casts has no topology.
     #[error(transparent)]
     Topology(#[from] CasterTopologyError),
@@ -44,11 +44,12 @@ pub struct LightPlan {
 pub fn frame_plans(scene: &Scene, device: &DeviceFacts) -> Result<Vec<LightPlan>, FramePlanError> {
     let local = LocalSpace::around(&scene.camera);
     let facts = scene_facts(scene, &local, device)?;
+    let eye = local.camera(&scene.camera).as_eye(scene.aspect());
     let plans = |shared: &[BufferKind]| -> Result<Vec<LightPlan>, FramePlanError> {
         let casting = scene.lights.iter().enumerate().filter(|(_, light)| light.casts);
         let plan_of = |(index, light): (usize, &SceneLight)| {
             let light_local = local.light(&light.light);
-            let views = views_with_guard(&light_local, guard_ndc(&light_local, &light.shadow))?;
+            let views = frame_views(&light_local, Some(&eye), &light.shadow)?.views;
             let (outputs, capacity) = (Outputs::Maps, Capacity::default());
             let settings = &light.shadow;
             let input = PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared };

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use contrejour_gpu::PassTimer;
-use contrejour_plan::Light;
+use contrejour_plan::{Eye, Light};
 use contrejour_scene::{Camera, Scene};
 use cpu_time::ThreadTime;
 use glam::DMat4;
@@ -86,7 +86,7 @@ impl Renderer {
         let casters = new_casters(&gpu, &local)?;
         let mut cast = CastShadows::new(&gpu, &casters)?;
         let lights = SceneLights::new(&gpu, scene, &local, &mut cast)?;
-        cast.prepare(&gpu, &casters, lights.casting())?;
+        cast.prepare(&gpu, &casters, lights.casting(), &local.camera(&scene.camera).as_eye(scene.aspect()))?;
         let mut pass = ScenePass::new(&gpu, lights.count());
         pass.prepare(&gpu, &cast, &lights.handles);
         let meshes = SceneMeshes::new(&gpu, scene, &local, pass.surface_layout())?;
@@ -157,6 +157,12 @@ impl Renderer {
         self.uniforms = self.uniforms.seen_from(&self.local.camera(camera), width / height);
     }
 
+    /// What cascades follow.
+    pub(crate) fn eye_local(&self) -> Eye {
+        let [width, height] = self.targets.size.map(f64::from);
+        self.local.camera(&self.camera).as_eye(width / height)
+    }
+
     /// Draws pictures of another size from now on, in pixels; the vertical opening angle of the camera stays.
     ///
     /// # Errors
@@ -201,7 +207,8 @@ impl Renderer {
 
     fn draw_frame(&mut self, target: Target<'_>) -> Result<(), DrawError> {
         let clock = ThreadTime::now();
-        self.cast.prepare(&self.gpu, &self.casters, self.lights.casting())?;
+        let eye_local = self.eye_local();
+        self.cast.prepare(&self.gpu, &self.casters, self.lights.casting(), &eye_local)?;
         // A light may have gained or lost its size.
         self.pass.prepare(&self.gpu, &self.cast, &self.lights.handles);
         self.picture_pass.prepare(&self.gpu, target.1);

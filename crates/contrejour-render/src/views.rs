@@ -3,7 +3,7 @@
 
 use contrejour_gpu::{LightHandle, Untimed};
 use contrejour_layout::SilhouetteEdge;
-use contrejour_plan::{BufferKind, DepthPrecision, LightKind, Stage, guard_ndc, views_with_guard};
+use contrejour_plan::{BufferKind, DepthPrecision, LightKind, Stage, frame_views};
 use image::RgbaImage;
 
 use crate::error::DrawError;
@@ -118,9 +118,11 @@ impl Renderer {
     /// Nearest and farthest depth of the light's views, in local units.
     fn depth_range(&self, light: Casting) -> (f64, f64) {
         let settings = self.cast.shadows.plan(light.1).map(|plan| plan.settings).unwrap_or_default();
-        let views = views_with_guard(self.lights.local(light.0), guard_ndc(self.lights.local(light.0), &settings));
+        let seen = frame_views(self.lights.local(light.0), Some(&self.eye_local()), &settings);
         // A light that has maps has views.
-        views.ok().and_then(|views| views.first().map(|view| (view.near_depth, view.far_depth))).unwrap_or((0.0, 1.0))
+        seen.ok()
+            .and_then(|seen| seen.views.first().map(|view| (view.near_depth, view.far_depth)))
+            .unwrap_or((0.0, 1.0))
     }
 
     fn visibility_picture(&self, light: Casting) -> Result<RgbaImage, ReadError> {
@@ -153,9 +155,10 @@ impl Renderer {
     /// Silhouettes of all views of all lights, one list for each view of a light that looks for them. The lists are filled
     /// for one view after the other, so they are copied as they are made.
     fn silhouettes(&mut self) -> Result<Vec<(LightHandle, Vec<SilhouetteEdge>)>, DrawError> {
+        let eye_local = self.eye_local();
         let Self { gpu, cast, .. } = self;
         cast.shadows.redraw();
-        cast.prepare(gpu, &self.casters, self.lights.casting())?;
+        cast.prepare(gpu, &self.casters, self.lights.casting(), &eye_local)?;
         let looks =
             |light: &LightHandle| cast.shadows.plan(*light).is_some_and(|plan| plan.has_stage(Stage::DetectSilhouette));
         let looking: Vec<LightHandle> = self.lights.handles.iter().flatten().copied().filter(looks).collect();

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use contrejour_mesh::{LoadError, MeshFile, TriangleMesh, read_file};
-use contrejour_plan::ShadowSettings;
+use contrejour_plan::{Eye, ShadowSettings};
 use glam::{DMat4, DVec3};
 
 use crate::file_scene::FileView;
@@ -202,6 +202,12 @@ impl Camera {
     /// Eye space (right-handed, y up, looking along -z) from world space.
     pub fn eye_from_world(&self) -> DMat4 {
         glam::dcamera::rh::view::look_at_mat4(self.eye, self.target, self.up)
+    }
+
+    /// What cascades follow, for a picture that is `aspect` times as wide as high.
+    pub fn as_eye(&self, aspect: f64) -> Eye {
+        let &Self { eye: position, target, fov_y, near, far, .. } = self;
+        Eye { position, forward: target - position, fov_y, aspect, near, far }
     }
 
     /// Clip space (z from 0 to 1) from world space.

@@ -116,6 +116,18 @@
 //! | `half_depth` | half the depth that is shadowed | around all meshes |
 //! | `angular_radius_degrees` | angular radius of the disk that shines, 0 to less than 90 | `0.27`, the sun's |
 //!
+//! With `cascades` it lights all that the camera sees, up to the camera's `far`: several maps follow the camera, finer
+//! ones near it. Then it has, in place of `center`, `half_extent` and `half_depth`:
+//!
+//! | Key | Value | Default |
+//! | --- | --- | --- |
+//! | `cascades` | how many maps there are, 1 to 8 | none: one map, that stands |
+//! | `logarithmic_share` | how much deeper each map's part of the view is than the one before, 0 to 1 | `0.75` |
+//! | `border_share` | last part of each part in which its map fades into the next one, 0 to 0.5 | `0.1` |
+//! | `caster_margin` | how far in front of a map's part casters keep their exact depth, in multiples of the camera's `far`, 0 to 1000 | `1` |
+//!
+//! See [`CascadeSettings`](contrejour_plan::CascadeSettings).
+//!
 //! # `[shadow]`
 //!
 //! How the shadows of all lights are made, but for what a light's own `shadow` says.

@@ -52,11 +52,11 @@ pub struct FrameCost {
 
 impl Contestant {
     pub(super) fn new(scene: Arc<JudgedScene>, settings: &ShadowSettings) -> Result<Self, NewContestantError> {
-        let JudgedScene { gpu, local, casters, receivers, light, .. } = &*scene;
+        let JudgedScene { gpu, local, casters, receivers, light, eye_local, .. } = &*scene;
         let light_local = local.light(&light.light);
         let mut cast = CastShadows::new(gpu, casters)?;
         let handle = cast.add_light(gpu, &light_local, settings)?;
-        cast.prepare(gpu, casters, [(handle, &light_local)])?;
+        cast.prepare(gpu, casters, [(handle, &light_local)], eye_local)?;
         let pass = VisibilityPass::new(gpu, &cast, handle, receivers);
         let usage = wgpu::TextureUsages::COPY_SRC;
         let target = target_texture(gpu, "judged visibility", receivers.size(), 1, VISIBILITY_FORMAT, usage);
@@ -85,9 +85,9 @@ impl Contestant {
     }
 
     fn draw_once(&mut self, light_local: &Light) -> Result<FrameCost, DrawError> {
-        let JudgedScene { gpu, casters, receivers, .. } = &*self.scene;
+        let JudgedScene { gpu, casters, receivers, eye_local, .. } = &*self.scene;
         let cpu_clock = ThreadTime::now();
-        self.cast.prepare(gpu, casters, [(self.light, light_local)])?;
+        self.cast.prepare(gpu, casters, [(self.light, light_local)], eye_local)?;
         if !self.pass.fits(&self.cast) {
             // The light gained or lost its size.
             self.pass = VisibilityPass::new(gpu, &self.cast, self.light, receivers);

@@ -15,7 +15,7 @@ mod visibility_pass;
 
 use std::sync::Arc;
 
-use contrejour_plan::{Light, ShadowSettings};
+use contrejour_plan::{Eye, Light, ShadowSettings};
 use contrejour_scene::{Scene, SceneLight};
 use image::RgbaImage;
 
@@ -64,6 +64,8 @@ struct JudgedScene {
     receivers: ReceiverTarget,
     /// The scene's first light.
     light: SceneLight,
+    /// What sees the receivers, in local space.
+    eye_local: Eye,
     exposure: f64,
 }
 
@@ -91,6 +93,7 @@ impl Judge {
         let [red, green, blue] = scene.background.map(f64::from);
         Ok(Self {
             scene: Arc::new(JudgedScene {
+                eye_local: local.camera(&scene.camera).as_eye(scene.aspect()),
                 gpu,
                 local,
                 casters,

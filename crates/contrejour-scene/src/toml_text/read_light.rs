@@ -1,12 +1,14 @@
 //! The section `light`, or the sections of that name.
 
-use contrejour_plan::{Light, LightKind, ShadowSettings};
+use contrejour_plan::{CascadeSettings, Light, LightKind, ShadowSettings};
 use glam::DVec3;
 
 use super::read_camera::read_depths;
 use super::read_shadow::read_shadow;
 use super::section::Section;
-use super::value::{ANGULAR_RADIUS, ANY, Accepts, NOT_NEGATIVE, OPENING, POSITIVE, Value};
+use super::value::{
+    ANGULAR_RADIUS, ANY, Accepts, CASCADES, HALF_SHARE, NOT_NEGATIVE, OPENING, POSITIVE, SHARE, UP_TO_A_THOUSAND, Value,
+};
 use crate::framing::{cone_angle, depths_all_around, light_depths, sun_extents};
 use crate::{Bounds, Problem, Scene, SceneError, SceneLight};
 
@@ -31,6 +33,10 @@ const ALL_KEYS: &[&str] = &[
     "half_extent",
     "half_depth",
     "angular_radius_degrees",
+    "cascades",
+    "logarithmic_share",
+    "border_share",
+    "caster_margin",
 ];
 /// Those of the keys that a spot has.
 const SPOT_KEYS: &[&str] = ALL_KEYS.split_at(14).0;
@@ -48,6 +54,21 @@ const DIRECTIONAL_KEYS: &[&str] = &[
     "half_extent",
     "half_depth",
     "angular_radius_degrees",
+    "cascades",
+];
+const CASCADED_KEYS: &[&str] = &[
+    "kind",
+    "name",
+    "color",
+    "intensity",
+    "casts",
+    "shadow",
+    "towards_light",
+    "angular_radius_degrees",
+    "cascades",
+    "logarithmic_share",
+    "border_share",
+    "caster_margin",
 ];
 const SUN_ANGULAR_RADIUS_DEGREES: f64 = 0.27;
 
@@ -75,6 +96,11 @@ fn read_light(value: &Value<'_>, bounds: &Bounds, shadow: ShadowSettings) -> Res
         "point" => {
             let section = value.section("a point light", POINT_KEYS)?;
             let kind = read_point(&section, bounds)?;
+            (section, kind)
+        }
+        _ if value.section("the light", ALL_KEYS)?.get("cascades").is_some() => {
+            let section = value.section("a directional light with cascades", CASCADED_KEYS)?;
+            let kind = read_cascaded(&section)?;
             (section, kind)
         }
         _ => {
@@ -135,19 +161,42 @@ fn read_point(section: &Section<'_>, bounds: &Bounds) -> Result<LightKind, Scene
     Ok(LightKind::Point { position, radius, near, far })
 }
 
-fn read_directional(section: &Section<'_>, bounds: &Bounds) -> Result<LightKind, SceneError> {
+/// As it is given, and of unit length.
+fn read_towards_light(section: &Section<'_>) -> Result<(DVec3, DVec3), SceneError> {
     let towards_light = DVec3::from(section.require("towards_light")?.numbers(ANY)?);
     let direction = towards_light.try_normalize().ok_or_else(|| {
         let remedy = "give a vector that is not 0";
         section.refuse_key("towards_light", Problem::NoDirection { key: "towards_light", remedy })
     })?;
+    Ok((towards_light, direction))
+}
+
+fn read_angular_radius(section: &Section<'_>) -> Result<f64, SceneError> {
+    let read = |value: &Value<'_>| value.number(ANGULAR_RADIUS);
+    Ok(section.read_or("angular_radius_degrees", SUN_ANGULAR_RADIUS_DEGREES, read)?.to_radians())
+}
+
+fn read_cascaded(section: &Section<'_>) -> Result<LightKind, SceneError> {
+    let (towards_light, _) = read_towards_light(section)?;
+    let angular_radius = read_angular_radius(section)?;
+    let default = CascadeSettings::DEFAULT;
+    let share = |key, accepts, default| section.read_or(key, default, |value| value.number(accepts));
+    let cascades = CascadeSettings {
+        count: section.require("cascades")?.number(CASCADES)? as u32,
+        logarithmic_share: share("logarithmic_share", SHARE, default.logarithmic_share)?,
+        border_share: share("border_share", HALF_SHARE, default.border_share)?,
+        caster_margin: share("caster_margin", UP_TO_A_THOUSAND, default.caster_margin)?,
+    };
+    Ok(LightKind::Cascaded { towards_light, angular_radius, cascades })
+}
+
+fn read_directional(section: &Section<'_>, bounds: &Bounds) -> Result<LightKind, SceneError> {
+    let (towards_light, direction) = read_towards_light(section)?;
     let middle = if bounds.is_empty() { DVec3::ZERO } else { bounds.center() };
     let center = DVec3::from(section.read_or("center", middle.to_array(), |value| value.numbers(ANY))?);
     let [half_extent, half_depth] = sun_extents(bounds, center, direction);
     let half_extent = section.read_or("half_extent", half_extent, |value| value.number(POSITIVE))?;
     let half_depth = section.read_or("half_depth", half_depth, |value| value.number(POSITIVE))?;
-    let read_angle = |value: &Value<'_>| value.number(ANGULAR_RADIUS);
-    let angular_radius =
-        section.read_or("angular_radius_degrees", SUN_ANGULAR_RADIUS_DEGREES, read_angle)?.to_radians();
+    let angular_radius = read_angular_radius(section)?;
     Ok(LightKind::Directional { towards_light, center, half_extent, half_depth, angular_radius })
 }

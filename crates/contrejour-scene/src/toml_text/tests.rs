@@ -1,6 +1,8 @@
 use std::path::Path;
 
-use contrejour_plan::{AlphaRemap, DepthPrecision, LightKind, ShadowSettings, SmoothieWidth, Technique};
+use contrejour_plan::{
+    AlphaRemap, CascadeSettings, DepthPrecision, LightKind, ShadowSettings, SmoothieWidth, Technique,
+};
 use glam::DVec3;
 
 use crate::{BUILT_IN_SCENES, MeshSource, Place, Problem, Scene, SceneError};
@@ -50,6 +52,45 @@ fn a_good_scene_is_read() {
     assert!((scene.camera.fov_y - 40_f64.to_radians()).abs() < 1e-15);
     assert_eq!(scene.lights.len(), 1);
     assert_eq!(scene.lights[0].shadow, ShadowSettings::default());
+}
+
+#[test]
+fn a_sun_with_cascades_is_read() {
+    let spot = "kind = \"spot\"\nposition = [-3, 5, 2]\ntarget = [0, 0, 0]\n";
+    let sun = |keys: &str| format!("kind = \"directional\"\ntowards_light = [1, 2, 3]\n{keys}\n");
+    let read_sun = |keys: &str| read(&GOOD.replace(spot, &sun(keys))).map(|scene| scene.lights[0].light.kind);
+    let cascades_of = |keys: &str| match read_sun(keys).expect("good") {
+        LightKind::Cascaded { cascades, .. } => cascades,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(cascades_of("cascades = 3"), CascadeSettings { count: 3, ..CascadeSettings::DEFAULT });
+    let all = "cascades = 8\nlogarithmic_share = 0.5\nborder_share = 0\ncaster_margin = 2";
+    let expected = CascadeSettings { count: 8, logarithmic_share: 0.5, border_share: 0.0, caster_margin: 2.0 };
+    assert_eq!(cascades_of(all), expected);
+    for (keys, line, words) in [
+        ("cascades = 0", 10, "a whole number from 1 to 8"),
+        ("cascades = 9", 10, "a whole number from 1 to 8"),
+        ("cascades = 2.5", 10, "a whole number from 1 to 8"),
+        ("cascades = \"many\"", 10, "a whole number from 1 to 8"),
+        ("border_share = 0.2", 10, "has no key `border_share`"),
+        ("cascades = 2\nborder_share = 0.6", 11, "a number from 0 to 0.5"),
+        ("cascades = 2\nlogarithmic_share = 1.5", 11, "a number from 0 to 1"),
+        ("cascades = 2\ncaster_margin = -1", 11, "a number from 0 to 1000"),
+        ("cascades = 2\nhalf_extent = 4", 11, "has no key `half_extent`"),
+    ] {
+        // At the key where that is refused, else at its value.
+        let last = keys.lines().last().unwrap_or_default();
+        let column = if words.starts_with("has") { 1 } else { last.find('=').map_or(0, |at| at + 3) };
+        assert_refused(spot, &sun(keys), line, column, words);
+    }
+    let towards = "kind = \"directional\"\ntowards_light = [0, 0, 0]\ncascades = 2\n";
+    assert_refused(spot, towards, 9, 17, "leaves no direction");
+}
+
+#[test]
+fn the_avenue_is_read() {
+    let scene = read(include_str!("../../assets/scenes/avenue.toml")).expect("good");
+    assert!(matches!(scene.lights[0].light.kind, LightKind::Cascaded { .. }));
 }
 
 #[test]

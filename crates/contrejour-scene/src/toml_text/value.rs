@@ -28,6 +28,15 @@ pub(super) const NOT_ZERO: Accepts =
     Accepts { test: |value| value.abs() > 1e-15, says: "a number between -1e15 and 1e15 and not within 1e-15 of 0" };
 /// Shares.
 pub(super) const SHARE: Accepts = Accepts { test: |value| (0.0..=1.0).contains(&value), says: "a number from 0 to 1" };
+/// Shares of up to a half.
+pub(super) const HALF_SHARE: Accepts =
+    Accepts { test: |value| (0.0..=0.5).contains(&value), says: "a number from 0 to 0.5" };
+/// Multiples of up to a thousand.
+pub(super) const UP_TO_A_THOUSAND: Accepts =
+    Accepts { test: |value| (0.0..=1000.0).contains(&value), says: "a number from 0 to 1000" };
+/// How many cascades there may be.
+pub(super) const CASCADES: Accepts =
+    Accepts { test: |value| (1.0..=8.0).contains(&value) && value.fract() == 0.0, says: "a whole number from 1 to 8" };
 /// Opening angles, in degrees.
 pub(super) const OPENING: Accepts =
     Accepts { test: |value| (0.01..=179.0).contains(&value), says: "degrees from 0.01 to 179" };
