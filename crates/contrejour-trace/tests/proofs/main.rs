@@ -7,3 +7,4 @@ mod disk_lights;
 mod exact;
 mod lights_cut_by_a_plane;
 mod sphere_lights;
+mod sun_lights;
