@@ -7,13 +7,15 @@ fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
     let q = contrejour_q_of_depth(lookup.depth);
     let gradient = contrejour_q_gradient(lookup);
     let turn = contrejour_turn(lookup.position_world);
+    let place = contrejour_leaning(lookup.ndc);
 
     // Search for blockers.
     let search = contrejour_search_radius(q);
     var blocker_sum = 0.0;
     var blockers = 0.0;
     for (var sample = 0u; sample < CONTREJOUR_BLOCKER_SAMPLES; sample++) {
-        let offset = search * contrejour_disk(sample, CONTREJOUR_BLOCKER_SAMPLES, turn);
+        let on_disk = search * contrejour_disk(sample, CONTREJOUR_BLOCKER_SAMPLES, turn);
+        let offset = contrejour_outline_from_disk(place, on_disk);
         let q_map = contrejour_map_q(lookup.ndc + offset);
         let blocks = select(0.0, 1.0, q_map < q + dot(gradient, offset));
         blocker_sum += blocks * q_map;
@@ -27,7 +29,8 @@ fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
     let radius = contrejour_penumbra_radius(q, blocker_sum / blockers);
     var sum = 0.0;
     for (var sample = 0u; sample < CONTREJOUR_FILTER_SAMPLES; sample++) {
-        let offset = radius * contrejour_disk(sample, CONTREJOUR_FILTER_SAMPLES, turn);
+        let on_disk = radius * contrejour_disk(sample, CONTREJOUR_FILTER_SAMPLES, turn);
+        let offset = contrejour_outline_from_disk(place, on_disk);
         sum += contrejour_compared(contrejour_uv_of_ndc(lookup.ndc + offset), q + dot(gradient, offset));
     }
     return sum / f32(CONTREJOUR_FILTER_SAMPLES);

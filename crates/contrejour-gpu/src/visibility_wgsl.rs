@@ -31,7 +31,9 @@ const PASS: &str = wgsl!("raster/visibility", "eye", "full_screen");
 /// The function `contrejour_visibility` of a kind, with its bindings in a bind group: what
 /// [`Shadows::visibility_wgsl`](crate::Shadows::visibility_wgsl) gives for the kind that a light has.
 pub fn visibility_wgsl(kind: VisibilityKind, choice: ViewChoice, group: u32) -> String {
-    let mut text = format!("const CONTREJOUR_GROUP = {group}u;\nconst CONTREJOUR_VIEWS = {}u;\n", choice.views());
+    let (views, light_is_sphere) = (choice.views(), choice == ViewChoice::CubeFace);
+    let mut text = format!("const CONTREJOUR_GROUP = {group}u;\nconst CONTREJOUR_VIEWS = {views}u;\n");
+    text.push_str(&format!("const CONTREJOUR_LIGHT_IS_SPHERE = {light_is_sphere};\n"));
     text.push_str(&constants(kind));
     text.push_str(match kind {
         VisibilityKind::Compared(_) => COMPARED,

@@ -51,7 +51,7 @@ pub enum LightShape {
 
 impl LightShape {
     /// The light that the shadow techniques mean: a disk parallel to the light's image plane, or the sphere of a point
-    /// light, whose views have disks in its stead.
+    /// light.
     ///
     /// # Errors
     ///

@@ -30,8 +30,8 @@ pub enum LightKind {
     Point {
         /// Position, world space.
         position: DVec3,
-        /// Radius of the sphere that shines, world units. Range: 0 and up. For each view it is a disk parallel to the
-        /// image plane.
+        /// Radius of the sphere that shines, world units. Range: 0 and up. Soft shadows take it for small beside the
+        /// blocker's distance; see [`LightOutline`](crate::LightOutline).
         radius: f64,
         /// Nearest depth along the axis of a view from which on all casts, world units. Range: more than 0. What is
         /// nearer by less than the guard of the views casts too; see [`views_with_guard`](crate::views_with_guard).

@@ -14,8 +14,8 @@ pub enum LightOutline {
     Disk,
     /// A sphere, which turns the same disk to every receiver: soft edges of a depth grow towards the rim of the map,
     /// more so the more they run around its middle. Point lights. Disks would turn at the border of two faces: alpha
-    /// would jump there by 0.06 on average, and by up to 0.4. Smoothies know it; the filters of percentage-closer soft
-    /// shadows and of moments are as wide everywhere, as a disk's.
+    /// would jump there by 0.06 on average, and by up to 0.4. Smoothies, the filters of percentage-closer soft shadows and
+    /// those of moments follow it.
     Sphere,
 }
 
