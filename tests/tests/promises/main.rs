@@ -10,6 +10,7 @@ mod exact;
 mod facing;
 mod judged;
 mod lamp_borders;
+mod lamp_truth;
 mod left_out;
 mod many_lights;
 mod no_gaps;
@@ -47,6 +48,7 @@ fn main() -> ExitCode {
         lamp_borders::trials(),
         cascades::trials(),
         cascade_borders::trials(),
+        lamp_truth::trials(),
         left_out::trials(),
         peers::trials(),
         drawn_lights::trials(),

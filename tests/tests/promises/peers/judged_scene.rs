@@ -97,6 +97,11 @@ impl JudgedScene {
         self.receivers.iter().map(|(_, receiver)| receiver)
     }
 
+    /// Of each receiver, its pixel.
+    pub fn pixels(&self) -> impl Iterator<Item = usize> {
+        self.receivers.iter().map(|(pixel, _)| *pixel)
+    }
+
     /// The truth under a light, one value a receiver.
     pub fn truth(&self, light: &Light, care: Care) -> Result<Vec<f64>, String> {
         let meshes = self.scene.meshes.iter().map(|placed| OccluderMesh {
@@ -118,9 +123,19 @@ impl JudgedScene {
     /// As [`visibility`](Self::visibility), with the technique itself: its maps are still there.
     pub fn drawn(&self, settings: &ShadowSettings) -> Result<(Vec<f64>, Contestant), String> {
         let mut contestant = self.judge.contestant(settings).map_err(text_of)?;
-        contestant.draw(&self.scene.lights[0].light).map_err(text_of)?;
+        Ok((self.under(&mut contestant, self.light())?, contestant))
+    }
+
+    /// What a technique makes of it under each of some lights of the scene's own kind.
+    pub fn visibilities(&self, settings: &ShadowSettings, lights: &[Light]) -> Result<Vec<Vec<f64>>, String> {
+        let mut contestant = self.judge.contestant(settings).map_err(text_of)?;
+        lights.iter().map(|light| self.under(&mut contestant, light)).collect()
+    }
+
+    fn under(&self, contestant: &mut Contestant, light: &Light) -> Result<Vec<f64>, String> {
+        contestant.draw(light).map_err(text_of)?;
         let visibility = contestant.visibility().map_err(text_of)?;
-        Ok((self.receivers.iter().map(|(pixel, _)| f64::from(visibility[*pixel])).collect(), contestant))
+        Ok(self.receivers.iter().map(|(pixel, _)| f64::from(visibility[*pixel])).collect())
     }
 
     pub fn gpu(&self) -> &Gpu {

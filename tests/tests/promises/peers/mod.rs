@@ -3,7 +3,7 @@
 
 mod everywhere;
 mod filters;
-mod judged_scene;
+pub mod judged_scene;
 mod percentage_closer;
 mod variance;
 
