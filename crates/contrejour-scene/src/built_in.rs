@@ -20,6 +20,8 @@ pub const BUILT_IN_SCENES: &[BuiltInScene] = &[
     BuiltInScene { name: "cylinder", toml: include_str!("../assets/scenes/cylinder.toml") },
     BuiltInScene { name: "fence", toml: include_str!("../assets/scenes/fence.toml") },
     BuiltInScene { name: "boxes", toml: include_str!("../assets/scenes/boxes.toml") },
+    BuiltInScene { name: "sundial", toml: include_str!("../assets/scenes/sundial.toml") },
+    BuiltInScene { name: "lamp", toml: include_str!("../assets/scenes/lamp.toml") },
     BuiltInScene { name: "square", toml: include_str!("../assets/scenes/square.toml") },
     BuiltInScene { name: "night", toml: include_str!("../assets/scenes/night.toml") },
 ];
