@@ -8,7 +8,7 @@ use contrejour_layout::{
 };
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_mirror::{FrameInputs, FrameOutputs, run_facing, run_frame};
-use contrejour_plan::{Light, LightError, NearOne, ShadowSettings, ViewCounts, caster_light, views};
+use contrejour_plan::{Light, LightError, NearOne, ShadowSettings, View, ViewCounts, caster_light, views};
 use glam::DMat4;
 
 /// Quads and corners that a first run has room for: few meshes need more, and room for every edge of a large one would
@@ -33,13 +33,17 @@ pub(crate) struct MirrorFrame<'a> {
 }
 
 impl<'a> MirrorFrame<'a> {
-    /// A frame of meshes with their matrices, with room for all that they need under this light, and no more.
+    /// A frame of meshes with their matrices, with room for all that they need under this light of one view, and no more.
     pub fn new(
         meshes: &[(&'a TopologyAwareMesh, DMat4)],
         light: &Light,
         settings: &ShadowSettings,
     ) -> Result<Self, LightError> {
-        let view = views(light)?[0];
+        Ok(Self::of_view(meshes, &views(light)?[0], settings))
+    }
+
+    /// The same for one view of a light.
+    pub fn of_view(meshes: &[(&'a TopologyAwareMesh, DMat4)], view: &View, settings: &ShadowSettings) -> Self {
         let mut frame = Self {
             casters: Vec::new(),
             caster_lights: Vec::new(),
@@ -57,7 +61,7 @@ impl<'a> MirrorFrame<'a> {
             let planes = mesh.face_planes();
             frame.planes.extend(&planes.planes);
             let caster = frame.add(mesh);
-            let light = caster_light(&view, world_from_object, &near_one(mesh));
+            let light = caster_light(view, world_from_object, &near_one(mesh));
             if light.casts == 1 {
                 frame.face_items.extend(items(index, caster.face_count).map(|item| {
                     let by_positions = !planes.block_fits(item.block);
@@ -89,7 +93,7 @@ impl<'a> MirrorFrame<'a> {
                 break;
             }
         }
-        Ok(frame)
+        frame
     }
 
     /// Puts a mesh behind the others.

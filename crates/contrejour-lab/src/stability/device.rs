@@ -1,5 +1,6 @@
 //! A case on the device, and everything that its frame leaves there.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -45,7 +46,7 @@ pub(super) struct DeviceFrame<'a> {
     light: LightHandle,
 }
 
-/// What a frame leaves.
+/// What the frame of a view leaves.
 pub(super) struct DeviceOutputs {
     /// Indices of the meshes that cast.
     pub casting: Vec<usize>,
@@ -54,9 +55,25 @@ pub(super) struct DeviceOutputs {
     pub silhouettes: Vec<SilhouetteEdge>,
     pub quads: Vec<Quad>,
     pub corners: Vec<Corner>,
-    /// Numbers that are not finite, in all records and texels.
+    /// Numbers that are not finite, in all records.
     pub non_finite: u64,
 }
+
+/// Kinds of buffers that are read.
+const READ: [BufferKind; 9] = [
+    BufferKind::Counters,
+    BufferKind::Quads,
+    BufferKind::Corners,
+    BufferKind::CasterLights,
+    BufferKind::LightView,
+    BufferKind::Planes,
+    BufferKind::ReceiverView,
+    BufferKind::Lit,
+    BufferKind::Silhouettes,
+];
+
+/// Buffers of a frame's view, by their kinds.
+type Buffers = HashMap<BufferKind, Vec<wgpu::Buffer>>;
 
 impl<'a> DeviceFrame<'a> {
     pub fn new(gpu: &'a Gpu, meshes: &[DeviceMesh], light: &Light, settings: &ShadowSettings) -> Result<Self, Refusal> {
@@ -119,33 +136,70 @@ impl<'a> DeviceFrame<'a> {
         self.shadows.plan(self.light)
     }
 
-    pub fn read(&self) -> Result<DeviceOutputs, CaseError> {
-        let quads: Vec<Quad> = self.counted(BufferKind::Quads, |counters| counters.quads)?;
-        let corners: Vec<Corner> = self.counted(BufferKind::Corners, |counters| counters.corners)?;
-        let caster_lights: Vec<CasterLight> = self.records(BufferKind::CasterLights)?;
-        let light_view: Vec<LightView> = self.records(BufferKind::LightView)?;
-        let planes: Vec<[f32; 4]> = self.records(BufferKind::Planes)?;
-        let receiver_view: Vec<ReceiverView> = self.records(BufferKind::ReceiverView)?;
-        let of_records = non_finite(&quads)
-            + non_finite(&corners)
-            + non_finite(&caster_lights)
-            + non_finite(&light_view)
-            + non_finite(&planes)
-            + non_finite(&receiver_view);
+    /// What each of the light's views left.
+    pub fn read(&mut self, view_count: usize) -> Result<Vec<DeviceOutputs>, Ended> {
+        // One view's in place: some lists are as large as memory allows.
+        let mut buffers = if view_count > 1 { self.copies()? } else { vec![Buffers::new()] };
+        for kind in READ {
+            // The light's own hold the records of all its views.
+            if view_count == 1 || kind.is_of_light() {
+                buffers[0].insert(kind, self.shadows.buffers(kind).cloned().collect());
+            }
+        }
+        Ok(buffers.iter().map(|buffers| self.outputs(buffers)).collect::<Result<_, _>>()?)
+    }
+
+    /// Draws once more, and keeps what each view leaves in the lists before the next one fills them.
+    fn copies(&mut self) -> Result<Vec<Buffers>, Ended> {
+        let Gpu { device, queue, .. } = self.gpu;
+        self.shadows.redraw();
+        self.shadows.prepare(device, queue).map_err(Refusal::from)?;
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut views = Vec::new();
+        self.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
+            let mut copy = |buffer: &wgpu::Buffer| {
+                let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+                let size = buffer.size();
+                let descriptor = wgpu::BufferDescriptor { label: Some("view"), size, usage, mapped_at_creation: false };
+                let copied = device.create_buffer(&descriptor);
+                encoder.copy_buffer_to_buffer(buffer, 0, &copied, 0, size);
+                copied
+            };
+            views.push(READ.into_iter().map(|kind| (kind, view.buffers(kind).map(&mut copy).collect())).collect());
+        });
+        queue.submit([encoder.finish()]);
+        self.gpu.wait(None).map_err(CaseError::from)?;
+        self.gpu.check().map_err(CaseError::from)?;
+        Ok(views)
+    }
+
+    fn outputs(&self, buffers: &Buffers) -> Result<DeviceOutputs, CaseError> {
+        let quads: Vec<Quad> = self.counted(buffers, BufferKind::Quads, |counters| counters.quads)?;
+        let corners: Vec<Corner> = self.counted(buffers, BufferKind::Corners, |counters| counters.corners)?;
+        let caster_lights: Vec<CasterLight> = self.records(buffers, BufferKind::CasterLights)?;
+        let light_view: Vec<LightView> = self.records(buffers, BufferKind::LightView)?;
+        let planes: Vec<[f32; 4]> = self.records(buffers, BufferKind::Planes)?;
+        let receiver_view: Vec<ReceiverView> = self.records(buffers, BufferKind::ReceiverView)?;
+        let lit: Vec<u32> = self.records(buffers, BufferKind::Lit)?;
         Ok(DeviceOutputs {
             casting: (0..caster_lights.len()).filter(|caster| caster_lights[*caster].casts == 1).collect(),
-            lit: self.shadows.buffer(BufferKind::Lit).map(|_| self.records(BufferKind::Lit)).transpose()?,
-            silhouettes: self.counted(BufferKind::Silhouettes, |counters| counters.silhouette_edges)?,
-            non_finite: of_records + self.non_finite_texels()?,
+            lit: (!lit.is_empty()).then_some(lit),
+            silhouettes: self.counted(buffers, BufferKind::Silhouettes, |counters| counters.silhouette_edges)?,
+            non_finite: non_finite(&quads)
+                + non_finite(&corners)
+                + non_finite(&caster_lights)
+                + non_finite(&light_view)
+                + non_finite(&planes)
+                + non_finite(&receiver_view),
             quads,
             corners,
         })
     }
 
     /// All records of a kind of buffers; none where the frame has no such buffer.
-    fn records<T: AnyBitPattern + NoUninit>(&self, kind: BufferKind) -> Result<Vec<T>, CaseError> {
+    fn records<T: AnyBitPattern + NoUninit>(&self, buffers: &Buffers, kind: BufferKind) -> Result<Vec<T>, CaseError> {
         let mut records = Vec::new();
-        for buffer in self.shadows.buffers(kind) {
+        for buffer in buffers.get(&kind).into_iter().flatten() {
             records.extend(pod_collect_to_vec::<u8, T>(&read_buffer(self.gpu, buffer, buffer.size())?));
         }
         Ok(records)
@@ -154,18 +208,21 @@ impl<'a> DeviceFrame<'a> {
     /// The records of lists that the frame counted, page after page.
     fn counted<T: AnyBitPattern + NoUninit>(
         &self,
+        buffers: &Buffers,
         kind: BufferKind,
         count: fn(&Counters) -> u32,
     ) -> Result<Vec<T>, CaseError> {
         let mut records = Vec::new();
-        for (counters, list) in self.records(BufferKind::Counters)?.iter().zip(self.shadows.buffers(kind)) {
+        let lists = buffers.get(&kind).into_iter().flatten();
+        for (counters, list) in self.records(buffers, BufferKind::Counters)?.iter().zip(lists) {
             let size = u64::from(count(counters)) * size_of::<T>() as u64;
             records.extend(pod_collect_to_vec::<u8, T>(&read_buffer(self.gpu, list, size)?));
         }
         Ok(records)
     }
 
-    fn non_finite_texels(&self) -> Result<u64, CaseError> {
+    /// Numbers that are not finite, in all texels of all maps.
+    pub fn non_finite_texels(&self) -> Result<u64, CaseError> {
         let maps = self.shadows.maps(self.light);
         let textures = [
             maps.shadow_depth,

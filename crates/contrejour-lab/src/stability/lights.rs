@@ -1,6 +1,8 @@
 //! Lights around a ball that holds what is to be shadowed.
 
 use contrejour_plan::{Light, LightKind};
+#[cfg(test)]
+use contrejour_plan::{ShadowSettings, View, guard_ndc, views_with_guard};
 use glam::DVec3;
 
 /// Where lights stand, as seen from the middle: off every axis and plane that meshes are built along.
@@ -43,6 +45,24 @@ pub(super) fn sun(towards_light: DVec3, middle: DVec3, radius: f64) -> Light {
 /// A spot and parallel light from the same side, with what the table calls them.
 pub(super) fn both(middle: DVec3, radius: f64) -> [(&'static str, Light); 2] {
     [("spot", spot(middle, radius)), ("parallel", sun(ASIDE, middle, radius))]
+}
+
+/// The views of both, and that of a lamp in the spot's place which shows the ball across two borders.
+#[cfg(test)]
+pub(super) fn views_of_all_kinds(middle: DVec3, radius: f64) -> Vec<(&'static str, View)> {
+    let view = |light: Light, view: usize| {
+        let guard = guard_ndc(&light, &ShadowSettings::default());
+        views_with_guard(&light, guard).expect("a good light")[view]
+    };
+    let kind = LightKind::Point {
+        position: middle + 2.0 * radius * ASIDE.normalize(),
+        radius: 0.03 * radius,
+        near: 0.3 * radius,
+        far: 4.0 * radius,
+    };
+    let lamp = Light { kind, color: [1.0; 3] };
+    let below = view(lamp, contrejour_plan::CubeFace::NegativeY.index());
+    both(middle, radius).map(|(name, light)| (name, view(light, 0))).into_iter().chain([("point", below)]).collect()
 }
 
 /// The same light whose farthest depth is another one: a frame that must be drawn and finds the same faces lit.

@@ -20,6 +20,7 @@ mod page;
 mod plates;
 mod row;
 mod run;
+mod seen_view;
 mod sight;
 
 pub use case::{Case, CaseMesh};

@@ -87,6 +87,12 @@ pub(super) fn lamp(radius: f64) -> Light {
     Light { kind, color: [1.0; 3] }
 }
 
+/// A point light where the lamp is.
+pub(super) fn bulb(radius: f64) -> Light {
+    let kind = LightKind::Point { position: DVec3::new(0.0, LAMP, 0.0), radius, near: 1.0, far: 8.0 };
+    Light { kind, color: [1.0; 3] }
+}
+
 /// Parallel light from above with an angular radius.
 pub(super) fn sky(angular_radius: f64) -> Light {
     let kind = LightKind::Directional {

@@ -81,8 +81,6 @@ fn cut(low: DVec4, high: DVec4, point_ndc: [f32; 2]) -> DVec4 {
 
 #[cfg(test)]
 mod tests {
-    use contrejour_plan::views;
-
     use super::*;
     use crate::mirror_frame::MirrorFrame;
     use crate::stability::lights;
@@ -91,11 +89,9 @@ mod tests {
     #[test]
     fn the_twins_widths_are_those_of_the_definition_and_a_wrong_one_is_found() {
         let mesh = DeviceMesh::new(&ring(1.0, DVec3::ZERO)).expect("a good mesh");
-        for (name, light) in lights::both(DVec3::ZERO, 0.9 * RING_RADIUS) {
+        for (name, view) in lights::views_of_all_kinds(DVec3::ZERO, 0.9 * RING_RADIUS) {
             let settings = ShadowSettings::default();
-            let view = views(&light).expect("a good light")[0];
-            let frame = MirrorFrame::new(&[(&mesh.topology, DMat4::IDENTITY)], &light, &settings);
-            let mut made = frame.expect("a good light").run();
+            let mut made = MirrorFrame::of_view(&[(&mesh.topology, DMat4::IDENTITY)], &view, &settings).run();
             let definition = WidthDefinition::new(&view, &settings).expect("smoothies");
             let meshes = std::slice::from_ref(&mesh);
             let error = definition.error(meshes, &made.quads, &made.corners).expect("there are quads");

@@ -6,6 +6,7 @@ mod contact;
 mod counts;
 mod far_plane;
 mod intensity;
+mod lamps;
 mod light_places;
 mod map_sizes;
 mod overlaps;
@@ -16,9 +17,11 @@ mod techniques;
 mod wide_smoothies;
 
 use super::family::Family;
+#[cfg(test)]
+pub(super) use lamps::a_lamp_amid_a_ring;
 
 /// All families, in the order of the page.
-pub const FAMILIES: [Family; 28] = [
+pub const FAMILIES: [Family; 33] = [
     sizes::SCALE,
     sizes::DISTANCE,
     shapes::SLIVERS,
@@ -33,6 +36,11 @@ pub const FAMILIES: [Family; 28] = [
     projections::SHARP_TURNS,
     projections::NEAR_PLANE,
     projections::BEHIND_LIGHT,
+    lamps::BORDERS,
+    lamps::AMID,
+    lamps::SIZES,
+    lamps::SCALES,
+    lamps::NEAR_PLANES,
     counts::TEXEL_FACES,
     counts::EDGE_ON,
     counts::FAN,
