@@ -25,7 +25,7 @@ const NEAR: f64 = 0.8;
 const FAR: f64 = 12.0;
 
 /// Turns at random, beside those that bring a face's middle, an edge and a corner of the cube before the wall.
-const RANDOM_TURNS: usize = 4;
+const RANDOM_TURNS: usize = 2;
 
 /// How far below the light the wall is.
 const WALL: f64 = 4.0;
