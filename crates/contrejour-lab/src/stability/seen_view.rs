@@ -153,8 +153,8 @@ mod tests {
             seen.compare_smoothies(&mut row);
             row
         };
-        for view in 0..views.len() {
-            let sound = row(view, &as_twins(&made[view]));
+        for (view, made) in made.iter().enumerate() {
+            let sound = row(view, &as_twins(made));
             assert_eq!((sound.faults(), sound.faces_tested), (0, Some(768)), "view {view}: {sound:?}");
         }
 
