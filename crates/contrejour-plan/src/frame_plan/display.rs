@@ -21,8 +21,9 @@ impl fmt::Display for FramePlan {
             writeln!(formatter, "pages: {}", self.pages.len())?;
         }
 
-        write_names(formatter, "stages", self.stages.iter().map(|stage| stage.name()))?;
-        write_names(formatter, "passes", self.passes.iter().map(|pass| pass.name()))?;
+        let (stages, passes) = if self.is_drawn() { (&self.stages[..], &self.passes[..]) } else { (&[][..], &[][..]) };
+        write_names(formatter, "stages", stages.iter().map(|stage| stage.name()))?;
+        write_names(formatter, "passes", passes.iter().map(|pass| pass.name()))?;
         write_table(formatter, "pipelines", self.pipelines.iter().map(pipeline_row))?;
         let buffer_bytes: u64 = self.buffers.iter().map(|buffer| buffer.bytes).sum();
         let buffers = self.buffers.iter().map(|buffer| {

@@ -136,12 +136,17 @@ impl FramePlan {
         })
     }
 
-    /// Whether the frame runs a stage.
+    /// Whether the frame runs anything: not where its maps stand as they are.
+    pub fn is_drawn(&self) -> bool {
+        self.reason(&Omitted::Redrawing).is_none()
+    }
+
+    /// Whether the frame runs a stage, where it is [drawn](Self::is_drawn).
     pub fn has_stage(&self, stage: Stage) -> bool {
         self.stages.contains(&stage)
     }
 
-    /// Whether the frame runs a pass.
+    /// Whether the frame runs a pass, where it is [drawn](Self::is_drawn).
     pub fn has_pass(&self, pass: Pass) -> bool {
         self.passes.contains(&pass)
     }
