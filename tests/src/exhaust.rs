@@ -223,7 +223,7 @@ impl<'a> Exhaust<'a> {
             Some(handle) => self.shadows.set_light(handle, &light.light()).map_err(|error| error.to_string())?,
             None => {
                 let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
-                let added = self.shadows.add_light(device, &light.light(), &options);
+                let added = self.shadows.add_light(&light.light(), &options);
                 self.light = Some(added.map_err(|error| error.to_string())?);
             }
         }

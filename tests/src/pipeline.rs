@@ -60,7 +60,7 @@ impl<'a> Pipeline<'a> {
         match self.light {
             Some(handle) => self.shadows.set_light(handle, light).expect("the lights of the tests are good"),
             None => {
-                let handle = self.shadows.add_light(&self.gpu.device, light, &self.options);
+                let handle = self.shadows.add_light(light, &self.options);
                 self.light = Some(handle.expect("lights and options of the tests are good"));
             }
         }
@@ -114,18 +114,28 @@ impl<'a> Pipeline<'a> {
         self.shadows.maps(self.light())
     }
 
-    /// Prepares and submits one frame and waits for what it counted; zeros where the plan counts nothing.
+    /// Prepares and records one frame.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses.
+    pub fn record(&mut self, light: &Light) -> Result<wgpu::CommandBuffer, String> {
+        self.prepare(light).map_err(|error| error.to_string())?;
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.shadows.encode(&mut encoder, &mut Untimed);
+        Ok(encoder.finish())
+    }
+
+    /// Records and submits one frame and waits for what it counted; zeros where the plan counts nothing.
     ///
     /// # Errors
     ///
     /// What the library refuses.
     pub fn frame(&mut self, light: &Light) -> Result<Counters, String> {
         let _waiting = self.gpu.waiting();
-        self.prepare(light).map_err(|error| error.to_string())?;
+        let commands = self.record(light)?;
         let Gpu { device, queue, .. } = self.gpu;
-        let mut encoder = device.create_command_encoder(&Default::default());
-        self.shadows.encode(&mut encoder, &mut Untimed);
-        queue.submit([encoder.finish()]);
+        queue.submit([commands]);
         if self.shadows.buffer(BufferKind::Counters).is_none() {
             return Ok(Counters::default());
         }

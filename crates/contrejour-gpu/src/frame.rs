@@ -8,8 +8,9 @@ use contrejour_plan::{BufferKind, FramePlan};
 use crate::compute::StagePipeline;
 use crate::pipelines::Pipelines;
 use crate::raster::{DrawnView, MapPipeline};
-use crate::readback::Copying;
+use crate::readback::{Copying, Page};
 use crate::resources::{Bindings, Buffers, Textures};
+use crate::slots::Key;
 use crate::timer::PassTimer;
 
 /// Records, maps and bind groups of a light. They follow its plan: what it lists is made, what it no longer lists is
@@ -83,7 +84,7 @@ impl Frame {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         (plan, shared, records): (&FramePlan, &Buffers, &[LightView]),
-        mut counted: Option<Copying<'_>>,
+        (light, mut counted): (Key, Option<&mut Copying<'_>>),
         timer: &mut T,
         mut after: impl FnMut(&mut wgpu::CommandEncoder, usize),
     ) -> Recorded {
@@ -98,12 +99,11 @@ impl Frame {
                 pipeline.encode(encoder, bind_groups, (shared, &self.textures), &drawn, &mut recorded, timer);
             }
             if let Some(counted) = &mut counted {
-                counted.copy(encoder, shared.all(BufferKind::Counters));
+                for (counters, page) in shared.all(BufferKind::Counters).zip(&plan.pages) {
+                    counted.copy(encoder, counters, Page { light, capacity: page.capacity() });
+                }
             }
             after(encoder, view);
-        }
-        if let Some(counted) = counted {
-            counted.finish(encoder);
         }
         recorded
     }

@@ -10,7 +10,7 @@ use crate::error::ShadowLightError;
 use crate::frame::{Frame, Made, Recorded};
 use crate::inputs::ShadowOptions;
 use crate::pipelines::Pipelines;
-use crate::readback::CounterReadback;
+use crate::readback::{Copying, CountedPage};
 use crate::resources::Buffers;
 use crate::slots::Key;
 use crate::timer::PassTimer;
@@ -35,7 +35,6 @@ pub(crate) struct LightState {
     pub frame: Frame,
     pub visibility: Option<Visibility>,
     pub counters: Option<Counters>,
-    readback: CounterReadback,
     records: Records,
     latest_is_complete: bool,
     /// Whether its records are to be uploaded.
@@ -67,7 +66,7 @@ impl LightState {
     /// # Errors
     ///
     /// The light or the settings are out of range.
-    pub fn new(device: &wgpu::Device, light: &Light, options: &ShadowOptions) -> Result<Self, ShadowLightError> {
+    pub fn new(light: &Light, options: &ShadowOptions) -> Result<Self, ShadowLightError> {
         options.settings.validate()?;
         Ok(Self {
             options: *options,
@@ -79,7 +78,6 @@ impl LightState {
             frame: Frame::default(),
             visibility: None,
             counters: None,
-            readback: CounterReadback::new(device),
             records: Records::default(),
             latest_is_complete: false,
             has_new_records: true,
@@ -141,7 +139,6 @@ impl LightState {
     /// Makes what a plan lists for this light.
     pub fn follow(&mut self, device: &wgpu::Device, plan: FramePlan, (shared, pipelines): (&Buffers, &mut Pipelines)) {
         let made = self.frame.follow(device, &plan, self.seen.views.len(), (shared, pipelines));
-        self.readback.make_room(device, plan.pages.len() * self.seen.views.len());
         self.follow_visibility(device, &plan, made);
         self.is_due |= made.textures || self.plan.as_ref().is_none_or(|old| old.stages != plan.stages);
         self.has_new_records = true;
@@ -165,7 +162,6 @@ impl LightState {
         self.plan = None;
         self.frame = Frame::default();
         self.visibility = None;
-        self.readback.drop_room();
         self.latest_is_complete = false;
         self.is_due = true;
     }
@@ -216,50 +212,46 @@ impl LightState {
         self.is_due
     }
 
-    /// Records what fills its maps; calls `after` behind each view.
+    /// Records what fills its maps; calls `after` behind each view. Where it counts and its counters can't be copied, it
+    /// stays due: its maps may lack what did not fit.
     pub fn encode<T: PassTimer>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         shared: &Buffers,
+        (light, counted): (Key, Option<&mut Copying<'_>>),
         timer: &mut T,
         after: impl FnMut(&mut wgpu::CommandEncoder, usize),
     ) -> Recorded {
+        self.is_due = self.counts() && counted.is_none();
         let Some(plan) = &self.plan else { return Recorded::default() };
-        let of_page = plan.pages.iter().map(|page| page.capacity());
-        let capacities = std::iter::repeat_n(of_page, self.seen.views.len()).flatten().collect();
-        let counted = if plan.stages.is_empty() { None } else { self.readback.begin(capacities) };
-        self.is_due = false;
-        self.frame.encode(encoder, (plan, shared, &self.records.light_views), counted, timer, after)
+        let counted = counted.filter(|_| !plan.stages.is_empty());
+        self.frame.encode(encoder, (plan, shared, &self.records.light_views), (light, counted), timer, after)
     }
 
-    /// Takes the counters that have arrived. Returns the overflows, and the room that was missing.
-    pub fn collect_counters(&mut self) -> (u64, Option<Capacity>) {
-        let mut overflows = 0;
-        let mut missing: Option<Capacity> = None;
-        for pages in self.readback.arrived() {
-            self.latest_is_complete = pages.iter().all(|page| page.capacity.holds(&page.counters));
-            for page in pages.iter().filter(|page| !page.capacity.holds(&page.counters)) {
-                missing = Some(missing.unwrap_or_default().max(page.capacity.grown_for(&page.counters)));
-            }
-            overflows += u64::from(!self.latest_is_complete);
-            self.counters = Some(pages.iter().map(|page| page.counters).sum());
-        }
+    /// Takes what the pages of a frame counted. Returns the room that was missing.
+    pub fn take_counters(&mut self, pages: &[CountedPage]) -> Option<Capacity> {
+        let too_small = pages.iter().filter(|page| !page.is_complete());
+        let missing = too_small.map(|page| page.page.capacity.grown_for(&page.counters)).reduce(Capacity::max);
+        self.latest_is_complete = missing.is_none();
+        self.counters = Some(pages.iter().map(|page| page.counters).sum());
         self.is_due |= missing.is_some();
-        (overflows, missing)
+        missing
+    }
+
+    /// Pages whose counters a frame sends back: none where no stage counts.
+    pub fn counted_pages(&self) -> usize {
+        let counting = self.plan.as_ref().filter(|plan| !plan.stages.is_empty());
+        counting.map_or(0, |plan| plan.pages.len() * self.seen.views.len())
     }
 
     /// Whether its stages count anything.
-    pub fn counts(&self) -> bool {
-        self.plan.as_ref().is_some_and(|plan| !plan.stages.is_empty())
+    fn counts(&self) -> bool {
+        self.counted_pages() > 0
     }
 
     /// Whether its latest counted frame had room for everything.
     pub fn is_complete(&self) -> bool {
         self.plan.is_some() && (!self.counts() || self.latest_is_complete)
-    }
-
-    pub fn is_pending(&self) -> bool {
-        self.readback.is_pending()
     }
 }
 

@@ -69,6 +69,8 @@ impl Shadows {
         for ((_, light), plan) in self.lights.iter_mut().zip(plans) {
             light.follow(device, plan, self.buffers.shared_and_pipelines());
         }
+        let counted_pages = self.lights.iter().map(|(_, light)| light.counted_pages()).sum();
+        self.readback.make_room(device, counted_pages);
         self.buffers.drop_unused();
         let made = self.watch.close(device, scopes, bytes);
         self.keep_if(made)
@@ -78,6 +80,7 @@ impl Shadows {
     fn keep_if(&mut self, made: Result<(), DeviceError>) -> Result<(), DeviceError> {
         if made.is_err() {
             self.buffers = Default::default();
+            self.readback.drop_room();
             self.lights.iter_mut().for_each(|(_, light)| light.drop_made());
             self.is_stale = true;
         }

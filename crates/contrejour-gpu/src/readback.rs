@@ -1,4 +1,4 @@
-//! Counters on their way back to the CPU, without a wait.
+//! Counters of all lights on their way back to the CPU, without a wait.
 
 use std::sync::{
     Arc,
@@ -8,27 +8,32 @@ use std::sync::{
 use contrejour_layout::Counters;
 use contrejour_plan::Capacity;
 
+use crate::slots::Key;
+
 /// Frames whose counters can be under way at once; a frame that finds no free slot sends none back.
-const SLOTS: usize = 3;
+const SLOTS: usize = 4;
 
 /// Bytes of one page's counters.
 const PAGE_BYTES: u64 = size_of::<Counters>() as u64;
 
-/// A ring of small buffers that the counters are copied to and mapped by the submission that fills them.
+/// A ring of small buffers that the counters are copied to and mapped by the submission that fills them: one mapping a
+/// frame, however many lights it has.
 #[derive(Debug)]
 pub(crate) struct CounterReadback {
     slots: Vec<Slot>,
     next_frame: u64,
+    /// Where a frame's counters lie when they are taken; kept, so that no frame allocates.
+    counted: Vec<CountedPage>,
 }
 
 #[derive(Debug)]
 struct Slot {
     buffer: wgpu::Buffer,
-    /// Pages of all views that the buffer has room for.
+    /// Pages that the buffer has room for.
     room: usize,
     state: Arc<AtomicU8>,
-    /// Room that the counted frame had, view by view and page by page.
-    capacities: Vec<Capacity>,
+    /// What is counted, in the order of the copies.
+    pages: Vec<Page>,
     /// The counted frame's place among all.
     frame: u64,
 }
@@ -46,18 +51,31 @@ impl Drop for Ticket {
     }
 }
 
+/// A page of a light's view, and the room that it had.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Page {
+    pub light: Key,
+    pub capacity: Capacity,
+}
+
 /// A frame whose counters are copied.
 #[derive(Debug)]
 pub(crate) struct Copying<'a> {
     slot: &'a mut Slot,
-    offset: u64,
 }
 
-/// Counters of a page, and the room that it had.
+/// What a page counted.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CountedPage {
+    pub page: Page,
     pub counters: Counters,
-    pub capacity: Capacity,
+}
+
+impl CountedPage {
+    /// Whether the page had room for everything.
+    pub fn is_complete(&self) -> bool {
+        self.page.capacity.holds(&self.counters)
+    }
 }
 
 impl CounterReadback {
@@ -66,10 +84,10 @@ impl CounterReadback {
             buffer: buffer_for(device, 1),
             room: 1,
             state: Arc::new(AtomicU8::new(FREE)),
-            capacities: Vec::new(),
+            pages: Vec::new(),
             frame: 0,
         };
-        Self { slots: (0..SLOTS).map(|_| slot()).collect(), next_frame: 0 }
+        Self { slots: (0..SLOTS).map(|_| slot()).collect(), next_frame: 0, counted: Vec::new() }
     }
 
     /// Gives the free slots room for so many pages.
@@ -87,30 +105,30 @@ impl CounterReadback {
         }
     }
 
-    /// Begins to copy the counters of a frame whose pages have this room, view by view, if a slot for so many is free.
-    pub fn begin(&mut self, capacities: Vec<Capacity>) -> Option<Copying<'_>> {
-        let has_room = |slot: &&mut Slot| slot.is_free() && slot.room >= capacities.len();
+    /// Begins to copy the counters of a frame of so many pages, if a slot for so many is free.
+    pub fn begin(&mut self, page_count: usize) -> Option<Copying<'_>> {
+        let has_room = |slot: &&mut Slot| slot.is_free() && slot.room >= page_count;
         let slot = self.slots.iter_mut().find(has_room)?;
-        slot.capacities = capacities;
+        slot.pages.clear();
         slot.frame = self.next_frame;
         self.next_frame += 1;
-        Some(Copying { slot, offset: 0 })
+        Some(Copying { slot })
     }
 
-    /// Takes what has arrived, oldest frame first; of each frame the pages of its views.
-    pub fn arrived(&mut self) -> Vec<Vec<CountedPage>> {
-        self.slots.sort_by_key(|slot| slot.frame);
-        let mut frames = Vec::new();
+    /// Takes what has arrived, oldest frame first; of each frame the pages in the order of their copies.
+    pub fn take_arrived(&mut self, mut take: impl FnMut(&[CountedPage])) {
+        self.slots.sort_unstable_by_key(|slot| slot.frame);
         for slot in self.slots.iter().filter(|slot| slot.state.load(Ordering::Acquire) == MAPPED) {
+            self.counted.clear();
             if let Ok(view) = slot.buffer.slice(..).get_mapped_range() {
                 let counters = view.chunks_exact(PAGE_BYTES as usize).map(bytemuck::pod_read_unaligned);
-                let pages = counters.zip(&slot.capacities);
-                frames.push(pages.map(|(counters, &capacity)| CountedPage { counters, capacity }).collect());
+                let pages = slot.pages.iter().zip(counters);
+                self.counted.extend(pages.map(|(&page, counters)| CountedPage { page, counters }));
             }
             slot.buffer.unmap();
             slot.state.store(FREE, Ordering::Release);
+            take(&self.counted);
         }
-        frames
     }
 
     /// Whether counters of an encoded frame are still under way.
@@ -120,12 +138,11 @@ impl CounterReadback {
 }
 
 impl Copying<'_> {
-    /// Records the copies of a view's counters, page by page.
-    pub fn copy<'a>(&mut self, encoder: &mut wgpu::CommandEncoder, counters: impl Iterator<Item = &'a wgpu::Buffer>) {
-        for page in counters {
-            encoder.copy_buffer_to_buffer(page, 0, &self.slot.buffer, self.offset, PAGE_BYTES);
-            self.offset += PAGE_BYTES;
-        }
+    /// Records the copy of a page's counters.
+    pub fn copy(&mut self, encoder: &mut wgpu::CommandEncoder, counters: &wgpu::Buffer, page: Page) {
+        let offset = self.slot.pages.len() as u64 * PAGE_BYTES;
+        encoder.copy_buffer_to_buffer(counters, 0, &self.slot.buffer, offset, PAGE_BYTES);
+        self.slot.pages.push(page);
     }
 
     /// Sends them back.

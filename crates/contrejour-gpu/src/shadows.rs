@@ -15,6 +15,7 @@ use crate::heartbeat::poll;
 use crate::inputs::{FrameStats, ShadowOptions, device_facts};
 use crate::lights::{LightHandle, LightState};
 use crate::pool::{MeshHandle, MeshPool};
+use crate::readback::CounterReadback;
 use crate::resources::Buffers;
 use crate::scene_buffers::SceneBuffers;
 use crate::slots::Slots;
@@ -32,6 +33,7 @@ pub struct Shadows {
     pub(crate) lights: Slots<LightState>,
     pub(crate) buffers: SceneBuffers,
     pub(crate) capacity: Capacity,
+    pub(crate) readback: CounterReadback,
     pub(crate) watch: DeviceWatch,
     pub(crate) stats: FrameStats,
     /// Whether what is made may not be what is needed: something came or went, or lists were too short.
@@ -67,6 +69,7 @@ impl Shadows {
             return Err(NewShadowsError::Limits { available, needed });
         }
         let scopes = OpenScopes::push(device);
+        let readback = CounterReadback::new(device);
         let watch = DeviceWatch::new(device, scopes, 0)?;
         Ok(Self {
             device_facts: device_facts(device),
@@ -75,6 +78,7 @@ impl Shadows {
             lights: Slots::default(),
             buffers: SceneBuffers::default(),
             capacity: Capacity::default(),
+            readback,
             watch,
             stats: FrameStats::default(),
             is_stale: true,
@@ -130,13 +134,8 @@ impl Shadows {
     /// # Errors
     ///
     /// The light or the settings are out of range.
-    pub fn add_light(
-        &mut self,
-        device: &wgpu::Device,
-        light: &Light,
-        options: &ShadowOptions,
-    ) -> Result<LightHandle, ShadowLightError> {
-        let state = LightState::new(device, light, options)?;
+    pub fn add_light(&mut self, light: &Light, options: &ShadowOptions) -> Result<LightHandle, ShadowLightError> {
+        let state = LightState::new(light, options)?;
         self.is_stale = true;
         Ok(LightHandle(self.lights.insert(state)))
     }
@@ -205,12 +204,18 @@ impl Shadows {
         }
         self.buffers.encode_copies(encoder, &self.casters.live_copies(&self.meshes));
         let shared = self.buffers.shared();
+        let due = self.lights.iter().filter(|(_, light)| light.is_due());
+        let counted_pages = due.map(|(_, light)| light.counted_pages()).sum();
+        let mut counted = if counted_pages > 0 { self.readback.begin(counted_pages) } else { None };
         for (key, light) in self.lights.iter_mut().filter(|(_, light)| light.is_due()) {
-            let recorded = light.encode(encoder, shared, timer, |encoder, view| {
+            let recorded = light.encode(encoder, shared, (key, counted.as_mut()), timer, |encoder, view| {
                 after(encoder, &FilledView { light: LightHandle(key), view, shared });
             });
             self.stats.dispatches_recorded += recorded.dispatches;
             self.stats.draws_recorded += recorded.draws;
+        }
+        if let Some(counted) = counted {
+            counted.finish(encoder);
         }
     }
 
@@ -259,7 +264,7 @@ impl Shadows {
         self.watch.check(device)?;
         // Another thread that polls the same device may still have our callback to run.
         let patience = Instant::now() + CALLBACK_PATIENCE;
-        while self.lights.iter().any(|(_, light)| light.is_pending()) {
+        while self.readback.is_pending() {
             if Instant::now() > patience {
                 return Err(CountersError::NotSubmitted);
             }
@@ -271,17 +276,19 @@ impl Shadows {
 
     /// Takes the counters that have arrived: counts overflows and grows what was too short.
     pub(crate) fn collect_counters(&mut self) {
-        for (_, light) in self.lights.iter_mut() {
-            let (overflows, missing) = light.collect_counters();
-            self.stats.overflow_frames += overflows;
-            // Where a page lacks room all get it: what moves may next be on another one.
-            if let Some(missing) = missing {
-                self.capacity = self.capacity.max(missing);
-                self.is_stale = true;
+        self.readback.take_arrived(|frame| {
+            for pages in frame.chunk_by(|one, next| one.page.light == next.page.light) {
+                let Some(light) = self.lights.get_mut(pages[0].page.light) else { continue };
+                // Where a page lacks room all get it: what moves may next be on another one.
+                if let Some(missing) = light.take_counters(pages) {
+                    self.stats.overflow_frames += 1;
+                    self.capacity = self.capacity.max(missing);
+                    self.is_stale = true;
+                }
             }
-        }
-        let counted: Vec<_> = self.lights.iter().filter_map(|(_, light)| light.counters).collect();
-        self.stats.counters = (!counted.is_empty()).then(|| counted.into_iter().sum());
+        });
+        let counted = self.lights.iter().filter_map(|(_, light)| light.counters);
+        self.stats.counters = counted.reduce(|one, other| [one, other].into_iter().sum());
     }
 }
 

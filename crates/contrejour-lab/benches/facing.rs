@@ -134,7 +134,7 @@ impl Stages {
             Some(handle) => self.shadows.set_light(handle, light).expect("the light is good"),
             None => {
                 let options = ShadowOptions { outputs: Outputs::Silhouettes, ..ShadowOptions::default() };
-                let handle = self.shadows.add_light(&self.device, light, &options);
+                let handle = self.shadows.add_light(light, &options);
                 self.light = Some(handle.expect("the light is good"));
             }
         }

@@ -169,12 +169,11 @@ impl CastShadows {
     /// Adds a light that casts.
     pub fn add_light(
         &mut self,
-        gpu: &Gpu,
         light_local: &Light,
         settings: &ShadowSettings,
     ) -> Result<LightHandle, CastShadowsError> {
         let options = ShadowOptions { settings: *settings, outputs: Outputs::Maps, ..ShadowOptions::default() };
-        Ok(self.shadows.add_light(&gpu.device, light_local, &options)?)
+        Ok(self.shadows.add_light(light_local, &options)?)
     }
 
     /// Prepares a frame of the casters that it was made with, where they stand now, and with the lights like this; those that

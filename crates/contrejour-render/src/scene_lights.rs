@@ -7,7 +7,7 @@ use contrejour_scene::{Scene, SceneLight};
 use crate::casters::CastShadows;
 use crate::error::NewRendererError;
 use crate::surface_light::SurfaceLight;
-use crate::{Gpu, LocalSpace};
+use crate::LocalSpace;
 
 /// The lights, as the scene, the device's maps and the picture's shader have them.
 #[derive(Debug)]
@@ -54,7 +54,7 @@ pub enum MoveError {
 
 impl SceneLights {
     /// Checks the scene's lights, and gives those that cast their shadows.
-    pub fn new(gpu: &Gpu, scene: &Scene, local: &LocalSpace, cast: &mut CastShadows) -> Result<Self, NewRendererError> {
+    pub fn new(scene: &Scene, local: &LocalSpace, cast: &mut CastShadows) -> Result<Self, NewRendererError> {
         let mut lights = Self {
             lights: scene.lights.clone(),
             local: scene.lights.iter().map(|light| local.light(&light.light)).collect(),
@@ -64,7 +64,7 @@ impl SceneLights {
         };
         for (light, light_local) in lights.lights.iter().zip(&lights.local) {
             light.validate()?;
-            let handle = light.casts.then(|| cast.add_light(gpu, light_local, &light.shadow)).transpose()?;
+            let handle = light.casts.then(|| cast.add_light(light_local, &light.shadow)).transpose()?;
             lights.handles.push(handle);
             lights.records.push(SurfaceLight::new(light, local, lights.exposure));
         }

@@ -27,7 +27,7 @@ fn main() -> Outcome {
     shadows.add_caster(&body)?;
     shadows.add_caster(&floor)?;
     let options = ShadowOptions { outputs: Outputs::VisibilityTexture, ..Default::default() };
-    let light = shadows.add_light(&device, &common::light(), &options)?;
+    let light = shadows.add_light(&common::light(), &options)?;
     shadows.prepare(&device, &queue)?;
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);

@@ -50,7 +50,7 @@ fn main() -> Outcome {
     let floor = CasterInput { mesh: floor, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
     shadows.add_caster(&body)?;
     shadows.add_caster(&floor)?;
-    let light = shadows.add_light(&device, &common::light(), &ShadowOptions::default())?;
+    let light = shadows.add_light(&common::light(), &ShadowOptions::default())?;
 
     // Each frame: prepare, and record the maps before the pass that reads them.
     shadows.prepare(&device, &queue)?;

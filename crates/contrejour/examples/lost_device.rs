@@ -69,7 +69,7 @@ impl Renderer {
             let mesh = shadows.add_mesh(Arc::clone(mesh))?;
             shadows.add_caster(&CasterInput { mesh, world_from_object, positions: Positions::OfMesh })?;
         }
-        let light = shadows.add_light(&device, &common::light(), &options)?;
+        let light = shadows.add_light(&common::light(), &options)?;
         let visibility = common::target(&device, wgpu::TextureFormat::R8Unorm, wgpu::TextureUsages::COPY_SRC);
         Ok(Self { device, queue, shadows, light, visibility })
     }

@@ -54,7 +54,7 @@ fn main() -> Outcome {
 
     let positions = Positions::InBuffer { buffer: deformed.clone(), offset: 0, stride: STRIDE };
     shadows.add_caster(&CasterInput { mesh, world_from_object: common::world_from_body(), positions })?;
-    shadows.add_light(&device, &common::light(), &ShadowOptions::default())?;
+    shadows.add_light(&common::light(), &ShadowOptions::default())?;
     for time in [0.0, 1.0, 2.0] {
         shadows.prepare(&device, &queue)?;
         let mut encoder = device.create_command_encoder(&Default::default());

@@ -23,7 +23,7 @@ fn main() -> Outcome {
     let caster = CasterInput { mesh, world_from_object: common::world_from_body(), positions: Positions::OfMesh };
     shadows.add_caster(&caster)?;
     let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
-    shadows.add_light(&device, &common::light(), &options)?;
+    shadows.add_light(&common::light(), &options)?;
     shadows.prepare(&device, &queue)?;
     let mut encoder = device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);

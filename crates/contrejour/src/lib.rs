@@ -30,7 +30,7 @@
 //!     },
 //!     color: [1.0; 3],
 //! };
-//! let light = shadows.add_light(device, &spot, &ShadowOptions::default())?;
+//! let light = shadows.add_light(&spot, &ShadowOptions::default())?;
 //!
 //! // Each frame: say what moved, and record into your own encoder.
 //! shadows.place_caster(caster, &DMat4::from_rotation_y(0.1))?;

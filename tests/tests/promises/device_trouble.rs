@@ -96,7 +96,7 @@ fn a_device_lost_under_way() -> Outcome {
     let handle = shadows.add_mesh(Arc::clone(&part.topology)).map_err(text)?;
     let caster = CasterInput { mesh: handle, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
     shadows.add_caster(&caster).map_err(text)?;
-    shadows.add_light(&gpu.device, &second, &small(Technique::default())).map_err(text)?;
+    shadows.add_light(&second, &small(Technique::default())).map_err(text)?;
     shadows.prepare(&gpu.device, &gpu.queue).map_err(text)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     gpu.device.destroy();
@@ -220,7 +220,7 @@ fn destroyed_positions_spoil_one_frame() -> Outcome {
     let light = lights(&mesh)[0];
     let part = &mesh.parts[0];
     let mut shadows = Shadows::new(&gpu.device).map_err(text)?;
-    shadows.add_light(&gpu.device, &light, &small(Technique::default())).map_err(text)?;
+    shadows.add_light(&light, &small(Technique::default())).map_err(text)?;
     let handle = shadows.add_mesh(Arc::clone(&part.topology)).map_err(text)?;
     let positions = || {
         let bytes = bytemuck::cast_slice(&part.topology.positions);

@@ -110,7 +110,7 @@ fn lit_words_of_device(
     let input = CasterInput { mesh, world_from_object, positions: Positions::OfMesh };
     let handle = shadows.add_caster(&input).map_err(|error| error.to_string())?;
     let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
-    let light = shadows.add_light(&gpu.device, &caster.light.light(), &options).map_err(|error| error.to_string())?;
+    let light = shadows.add_light(&caster.light.light(), &options).map_err(|error| error.to_string())?;
 
     let waiting = gpu.waiting();
     shadows.prepare(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;

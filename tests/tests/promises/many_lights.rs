@@ -66,7 +66,7 @@ impl<'a> Crowd<'a> {
             settings.technique = technique.parse().map_err(text)?;
         }
         let options = ShadowOptions { settings, ..Default::default() };
-        self.shadows.add_light(&self.gpu.device, &light, &options).map_err(text)
+        self.shadows.add_light(&light, &options).map_err(text)
     }
 
     /// Draws until all lists had room. Returns how many lights the first frame made.

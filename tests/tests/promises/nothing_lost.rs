@@ -20,6 +20,10 @@ pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("nothing_lost::full_lists_are_counted_and_grow", full_lists_are_counted_and_grow),
         gpu_trial("nothing_lost::a_frame_without_growth_is_found", a_frame_without_growth_is_found),
+        gpu_trial(
+            "nothing_lost::a_frame_that_nobody_counted_is_drawn_again",
+            a_frame_that_nobody_counted_is_drawn_again,
+        ),
         gpu_trial("nothing_lost::every_mesh_leaves_finite_maps", every_mesh_leaves_finite_maps),
         gpu_trial("nothing_lost::every_mesh_leaves_finite_maps_in_one_texture", |_| match gpu_blending_floats() {
             Ok(gpu) => every_mesh_leaves_finite_maps(gpu),
@@ -81,6 +85,28 @@ fn a_frame_without_growth_is_found(gpu: &Gpu) -> Outcome {
         Err(_) if !pipeline.shadows.is_complete() => Ok(()),
         _ => Err("it passes for complete".into()),
     }
+}
+
+/// While more frames wait to be submitted than can send counters back, nobody would know of a full list. So a light stays
+/// due until it was counted, and a full list grows all the same.
+fn a_frame_that_nobody_counted_is_drawn_again(gpu: &Gpu) -> Outcome {
+    let mesh = tetrahedra(2000);
+    let light = light_from_above(&mesh);
+    let mut pipeline = Pipeline::new(gpu, &mesh, &ShadowOptions::default())?;
+    let mut waiting = Vec::new();
+    for _ in 0..16 {
+        pipeline.shadows.redraw();
+        waiting.push(pipeline.record(&light)?);
+    }
+    waiting.push(pipeline.record(&light)?);
+    if pipeline.shadows.stats().lights_redone != 1 {
+        return Err("a light was kept that nobody had counted".into());
+    }
+    gpu.queue.submit(waiting);
+    pipeline.complete_frame(&light)?;
+    check_all_are_there(&pipeline, &twin(&mesh, &light))?;
+    pipeline.record(&light)?;
+    if pipeline.shadows.stats().lights_redone == 0 { Ok(()) } else { Err("a counted light was drawn again".into()) }
 }
 
 /// The frame as the stages' twins leave it.

@@ -25,7 +25,7 @@ pub fn on_gpu(placed: &[PlacedMesh<'_>], light: &Light) -> Result<Vec<Silhouette
         })?;
     }
     let options = ShadowOptions { outputs: Outputs::Silhouettes, ..ShadowOptions::default() };
-    shadows.add_light(&gpu.device, light, &options)?;
+    shadows.add_light(light, &options)?;
     shadows.prepare(&gpu.device, &gpu.queue)?;
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     shadows.encode(&mut encoder, &mut Untimed);

@@ -84,7 +84,7 @@ impl<'a> DeviceFrame<'a> {
             let world_from_object = mesh.world_from_object;
             shadows.add_caster(&CasterInput { mesh: handle, world_from_object, positions: Positions::OfMesh })?;
         }
-        let light = shadows.add_light(&gpu.device, light, &options)?;
+        let light = shadows.add_light(light, &options)?;
         Ok(Self { gpu, shadows, light })
     }
 

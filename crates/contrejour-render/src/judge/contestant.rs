@@ -55,7 +55,7 @@ impl Contestant {
         let JudgedScene { gpu, local, casters, receivers, light, eye_local, .. } = &*scene;
         let light_local = local.light(&light.light);
         let mut cast = CastShadows::new(gpu, casters)?;
-        let handle = cast.add_light(gpu, &light_local, settings)?;
+        let handle = cast.add_light(&light_local, settings)?;
         cast.prepare(gpu, casters, [(handle, &light_local)], eye_local)?;
         let pass = VisibilityPass::new(gpu, &cast, handle, receivers);
         let usage = wgpu::TextureUsages::COPY_SRC;

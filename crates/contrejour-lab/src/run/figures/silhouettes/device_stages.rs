@@ -83,7 +83,7 @@ impl StagesAlone {
         let handle = shadows.add_mesh(Arc::clone(&mesh.topology)).map_err(CastShadowsError::from)?;
         let caster = CasterInput { mesh: handle, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
         shadows.add_caster(&caster).map_err(CastShadowsError::from)?;
-        let light = shadows.add_light(&gpu.device, &mesh.light, &options).map_err(CastShadowsError::from)?;
+        let light = shadows.add_light(&mesh.light, &options).map_err(CastShadowsError::from)?;
         Ok(Self { gpu: gpu.clone(), shadows, light })
     }
 
