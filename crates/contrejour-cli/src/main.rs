@@ -19,6 +19,8 @@ mod stability;
 mod stability_args;
 mod stress;
 mod stress_args;
+#[cfg(feature = "window")]
+mod stress_window;
 mod values;
 
 use std::process::ExitCode;

@@ -103,6 +103,9 @@ mod tests {
             upload_bytes_per_frame: 640,
             readback_waits: 0,
             cpu_ms_per_frame: 0.5,
+            cpu_upload_ms: 0.1,
+            cpu_record_ms: 0.3,
+            cpu_submit_ms: 0.1,
             overflow_frames: 1,
         }
     }

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use contrejour_lab::report::PlotUse;
-use contrejour_lab::stress::{Event, StressOptions, Summary, run as run_one, sweep};
+use contrejour_lab::stress::{Event, Motion, StressOptions, Summary, run as run_one, sweep};
 use contrejour_plan::ShadowSettings;
 use contrejour_render::{Gpu, check_folder, save_file};
 
@@ -22,11 +22,17 @@ pub fn run(arguments: &StressArguments) -> Result<ExitCode, Failure> {
         kind: arguments.kind,
         casters: arguments.casters,
         triangles_per_caster: arguments.triangles_per_caster,
+        motion: if arguments.still { Motion::Still } else { Motion::Walking },
         duration: Duration::from_secs_f64(arguments.seconds),
         settings: arguments.shadow.applied_to(ShadowSettings::default())?,
         verify: arguments.verify,
         seed: arguments.seed,
     };
+    #[cfg(feature = "window")]
+    if arguments.window {
+        print(&told(arguments, &[crate::stress_window::run(&options)?])?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     if arguments.sweep.is_some() {
         check_folder(&arguments.output)?;
     }
@@ -93,11 +99,22 @@ fn table(run: &Summary) -> String {
             run.faces_tested, run.edges_tested, run.silhouette_edges
         ),
         format!("lights     {} redone, {} kept", run.lights_redone, run.lights_kept),
-        format!("memory     {:.1} MiB, {} overflows", run.memory_bytes as f64 / 1_048_576.0, run.overflow_frames),
+        format!(
+            "memory     {:.1} MiB of maps and lists, {} overflows",
+            mebibytes(run.memory_bytes),
+            run.overflow_frames
+        ),
     ];
+    if let [Some(early), Some(late)] = [run.resident_bytes_early, run.resident_bytes_late] {
+        lines.push(format!("program    {:.1} MiB early, {:.1} MiB late", mebibytes(early), mebibytes(late)));
+    }
     if run.verified_light_frames > 0 {
         lines.push(format!("verified   {} light-frames, {} differences", run.verified_light_frames, run.differences));
     }
     lines.extend(run.stages.iter().map(|stage| format!("  {:<22} {:.3} ms", stage.name, stage.gpu_ms)));
     lines.join("\n")
+}
+
+fn mebibytes(bytes: u64) -> f64 {
+    bytes as f64 / 1_048_576.0
 }

@@ -11,7 +11,7 @@ use crate::values::parse_duration;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct StressArguments {
-    /// Moving lights
+    /// Lights, which move
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub lights: usize,
 
@@ -19,13 +19,17 @@ pub struct StressArguments {
     #[arg(long, value_name = "KIND", default_value_t = LightMix::Mixed)]
     pub kind: LightMix,
 
-    /// Moving casters
+    /// Casters, which move, and every fourth deforms
     #[arg(long, value_name = "N", default_value_t = 16)]
     pub casters: usize,
 
     /// Triangles of each caster, nearly
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub triangles_per_caster: usize,
+
+    /// Let nothing move: the maps of the first frame stand
+    #[arg(long)]
+    pub still: bool,
 
     /// How long frames are drawn
     #[arg(long, value_name = "S", default_value = "5", value_parser = parse_duration)]
@@ -38,6 +42,11 @@ pub struct StressArguments {
     /// Compare frames that are taken at random with exact arithmetic and with frames drawn from scratch
     #[arg(long)]
     pub verify: bool,
+
+    /// Show it in a window, until its time is over or the window is closed; a frame's cost then holds its picture
+    #[cfg(feature = "window")]
+    #[arg(long, conflicts_with_all = ["verify", "sweep"])]
+    pub window: bool,
 
     /// Vary one number (lights, casters or triangles) and write stress-AXIS.csv and stress-AXIS.svg
     #[arg(long, value_name = "AXIS")]

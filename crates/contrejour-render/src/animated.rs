@@ -5,11 +5,11 @@ use std::sync::Arc;
 use contrejour_gpu::{
     AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError, Positions,
 };
-use contrejour_mesh::{DeformingMesh, PartPose, PoseError};
-use contrejour_scene::AnimatedScene;
+use contrejour_mesh::{DeformingMesh, PartPose, PoseError, TriangleMesh};
+use contrejour_scene::{AnimatedScene, Scene};
 use glam::DVec3;
 
-use crate::casters::{CasterTopologyError, Casters};
+use crate::casters::Casters;
 use crate::error::NewRendererError;
 use crate::gpu::Gpu;
 use crate::local_space::LocalSpace;
@@ -45,6 +45,27 @@ pub(crate) struct DeformingCaster {
     pub posed: Vec<DVec3>,
 }
 
+/// What moves the vertices of a scene's meshes against each other.
+///
+/// The meshes that a pose moves are the first ones of the scene, and all of them cast.
+pub trait DeformingMeshes {
+    /// What deforms a mesh of the scene; none where nothing does.
+    fn deforming(&self, mesh: usize) -> Option<&Arc<DeformingMesh>>;
+
+    /// The mesh that a mesh of the scene is a pose of, at rest.
+    fn rest_mesh(&self, mesh: usize) -> Option<&TriangleMesh>;
+}
+
+impl DeformingMeshes for AnimatedScene {
+    fn deforming(&self, mesh: usize) -> Option<&Arc<DeformingMesh>> {
+        self.deforming(mesh)
+    }
+
+    fn rest_mesh(&self, mesh: usize) -> Option<&TriangleMesh> {
+        self.rest_mesh(mesh)
+    }
+}
+
 impl Renderer {
     /// Uploads a scene in motion, in its first frame.
     ///
@@ -52,35 +73,58 @@ impl Renderer {
     ///
     /// [`NewRendererError`] when something does not fit on the device.
     pub fn new_animated(gpu: Gpu, animated: &AnimatedScene) -> Result<Self, NewRendererError> {
+        let poses = animated.pose(animated.time(0)).map_err(AnimationError::from)?;
+        Self::new_posed(gpu, &animated.scene, animated, &poses)
+    }
+
+    /// Uploads a scene whose first meshes stand in these poses.
+    ///
+    /// # Errors
+    ///
+    /// [`NewRendererError`] when something does not fit on the device.
+    pub fn new_posed(
+        gpu: Gpu,
+        scene: &Scene,
+        meshes: &dyn DeformingMeshes,
+        poses: &[PartPose],
+    ) -> Result<Self, NewRendererError> {
         let new_casters = |gpu: &Gpu, local: &LocalSpace| -> Result<Casters, NewRendererError> {
-            let mut casters = animated_casters(animated, local)?;
-            casters.add_deforming(gpu, animated)?;
-            casters.pose(gpu, animated, &animated.pose(animated.time(0)).map_err(AnimationError::from)?, local)?;
+            let topology = |mesh| Some(meshes.deforming(mesh)?.topology(meshes.rest_mesh(mesh)?));
+            let mut casters = Casters::with_topologies(scene, local, topology)?;
+            casters.add_deforming(gpu, scene, meshes)?;
+            casters.pose(gpu, scene, poses, local)?;
             Ok(casters)
         };
-        let mut renderer = Self::with_casters(gpu, &animated.scene, new_casters)?;
-        renderer.pose(animated, animated.time(0))?;
+        let mut renderer = Self::with_casters(gpu, scene, new_casters)?;
+        renderer.pose_meshes(scene, poses)?;
         Ok(renderer)
     }
 
-    /// Poses a scene in motion for the frames that follow; `time` is in seconds. Joint matrices and weights go to the
-    /// device, and, for shading alone, normals.
+    /// Poses a scene in motion for the frames that follow; `time` is in seconds.
     ///
     /// # Errors
     ///
     /// [`AnimationError`] when a number overflows or the device fails.
     pub fn pose(&mut self, animated: &AnimatedScene, time: f64) -> Result<(), AnimationError> {
-        let poses = animated.pose(time)?;
-        self.casters.pose(&self.gpu, animated, &poses, &self.local)?;
+        self.pose_meshes(&animated.scene, &animated.pose(time)?)
+    }
+
+    /// Poses the first meshes of the scene for the frames that follow. Joint matrices and weights go to the device, and, for
+    /// shading alone, normals.
+    ///
+    /// # Errors
+    ///
+    /// [`AnimationError`] when the device fails.
+    pub fn pose_meshes(&mut self, scene: &Scene, poses: &[PartPose]) -> Result<(), AnimationError> {
+        self.casters.pose(&self.gpu, scene, poses, &self.local)?;
         let mut bytes = 0;
-        for ((index, pose), draw) in moving(animated, &poses).zip(0..) {
+        for ((index, pose), draw) in moving(scene, poses).zip(0..) {
             let caster = &self.casters.placed[draw];
             let deformed = caster.deforming.as_ref().map(|deforming| {
                 let normals = deforming.normals.at(&deforming.posed, &deforming.triangles);
                 (self.casters.positions(caster), normals)
             });
-            let mesh = &animated.scene.meshes[index].mesh;
-            let posed = PosedDraw { mesh, pose, local: &self.local, deformed };
+            let posed = PosedDraw { mesh: &scene.meshes[index].mesh, pose, local: &self.local, deformed };
             bytes += self.meshes.pose(&self.gpu, draw, &posed);
         }
         self.casters.pose_bytes += bytes;
@@ -88,25 +132,18 @@ impl Renderer {
     }
 }
 
-/// The meshes of the model that are drawn and cast: the first of each list, without those that have no triangle.
-fn moving<'a>(
-    animated: &'a AnimatedScene,
-    poses: &'a [PartPose],
-) -> impl Iterator<Item = (usize, &'a PartPose)> + use<'a> {
-    poses.iter().enumerate().filter(|&(index, _)| !animated.scene.meshes[index].mesh.triangles.is_empty())
-}
-
-fn animated_casters(animated: &AnimatedScene, local: &LocalSpace) -> Result<Casters, CasterTopologyError> {
-    Casters::with_topologies(&animated.scene, local, |index| animated.deforming_topology(index))
+/// The meshes that poses move, without those that have no triangle: they are drawn and cast, and come first there.
+fn moving<'a>(scene: &'a Scene, poses: &'a [PartPose]) -> impl Iterator<Item = (usize, &'a PartPose)> + use<'a> {
+    poses.iter().enumerate().filter(|&(index, _)| !scene.meshes[index].mesh.triangles.is_empty())
 }
 
 impl Casters {
-    /// Gives the deforming meshes of a model to a deformer, where there are any.
-    fn add_deforming(&mut self, gpu: &Gpu, animated: &AnimatedScene) -> Result<(), AnimationError> {
-        let with_triangles = |&index: &usize| !animated.scene.meshes[index].mesh.triangles.is_empty();
-        let indices = (0..animated.scene.meshes.len()).filter(with_triangles);
+    /// Gives the deforming meshes of a scene to a deformer, where there are any.
+    fn add_deforming(&mut self, gpu: &Gpu, scene: &Scene, meshes: &dyn DeformingMeshes) -> Result<(), AnimationError> {
+        let with_triangles = |&index: &usize| !scene.meshes[index].mesh.triangles.is_empty();
+        let indices = (0..scene.meshes.len()).filter(with_triangles);
         for (index, caster) in indices.zip(&mut self.placed) {
-            let (Some(mesh), Some(rest)) = (animated.deforming(index), animated.rest_mesh(index)) else { continue };
+            let (Some(mesh), Some(rest)) = (meshes.deforming(index), meshes.rest_mesh(index)) else { continue };
             let deformer = match &mut self.deformer {
                 Some(deformer) => deformer,
                 none => none.insert(Deformer::new(&gpu.device)?),
@@ -123,15 +160,9 @@ impl Casters {
     }
 
     /// Moves what moves.
-    fn pose(
-        &mut self,
-        gpu: &Gpu,
-        animated: &AnimatedScene,
-        poses: &[PartPose],
-        local: &LocalSpace,
-    ) -> Result<(), AnimationError> {
+    fn pose(&mut self, gpu: &Gpu, scene: &Scene, poses: &[PartPose], local: &LocalSpace) -> Result<(), AnimationError> {
         let mut inputs = Vec::new();
-        for ((_, pose), caster) in moving(animated, poses).zip(&mut self.placed) {
+        for ((_, pose), caster) in moving(scene, poses).zip(&mut self.placed) {
             caster.local_from_object = local.local_from_world() * pose.world_from_object;
             if let Some(deforming) = &mut caster.deforming {
                 deforming.posed = deforming.mesh.posed(pose);

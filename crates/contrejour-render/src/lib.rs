@@ -40,7 +40,7 @@ mod texture_levels;
 mod tone_map;
 mod views;
 
-pub use animated::AnimationError;
+pub use animated::{AnimationError, DeformingMeshes};
 pub use casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
 pub use error::{DrawError, NewRendererError};
 pub use frame_plan::{FramePlanError, LightPlan, frame_plans};

@@ -32,6 +32,12 @@ pub struct Measurements {
     pub readback_waits: u64,
     /// Median CPU time of the thread that records, uploads and submits a frame. Unit: milliseconds.
     pub cpu_ms_per_frame: f64,
+    /// The part of it in which records are uploaded, a median of its own as the next two are. Unit: milliseconds.
+    pub cpu_upload_ms: f64,
+    /// The part in which commands are recorded. Unit: milliseconds.
+    pub cpu_record_ms: f64,
+    /// The part in which they are submitted. Unit: milliseconds.
+    pub cpu_submit_ms: f64,
     /// Frames whose buffers were too small for what they found.
     pub overflow_frames: u64,
 }
@@ -67,6 +73,7 @@ impl Measurements {
         stats: &FrameStats,
     ) -> Self {
         let steady = if frames.len() > 1 { &frames[1..] } else { frames };
+        let median_of = |cost: fn(&CpuCost) -> f64| median(&steady.iter().map(cost).collect::<Vec<_>>()).unwrap_or(0.0);
         let stage_cost =
             |stage: &TimedStage| StageCost { name: stage.name.clone(), gpu_ms: median(&stage.times_ms).unwrap_or(0.0) };
         Self {
@@ -78,7 +85,10 @@ impl Measurements {
             stages: stages.iter().map(stage_cost).collect(),
             upload_bytes_per_frame: lower_median(steady.iter().map(|frame| frame.upload_bytes)).unwrap_or(0),
             readback_waits: stats.readback_waits,
-            cpu_ms_per_frame: median(&steady.iter().map(|frame| frame.cpu_ms).collect::<Vec<_>>()).unwrap_or(0.0),
+            cpu_ms_per_frame: median_of(|frame| frame.cpu_ms),
+            cpu_upload_ms: median_of(|frame| frame.upload_ms),
+            cpu_record_ms: median_of(|frame| frame.record_ms),
+            cpu_submit_ms: median_of(|frame| frame.submit_ms),
             overflow_frames: stats.overflow_frames,
         }
     }
@@ -191,7 +201,10 @@ mod tests {
 
     #[test]
     fn the_first_frame_uploads_the_scene_and_does_not_count() {
-        let frames = [CpuCost { cpu_ms: 90.0, upload_bytes: 1_000_000 }, CpuCost { cpu_ms: 1.0, upload_bytes: 10 }];
+        let frames = [
+            CpuCost { cpu_ms: 90.0, upload_bytes: 1_000_000, ..CpuCost::default() },
+            CpuCost { cpu_ms: 1.0, upload_bytes: 10, ..CpuCost::default() },
+        ];
         let measured = Measurements::new(String::new(), 2, 0, &frames, &[], &[], &FrameStats::default());
         assert_eq!(measured.upload_bytes_per_frame, 10);
         assert_eq!(measured.cpu_ms_per_frame, 1.0);

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use contrejour_gpu::PassTimer;
+use contrejour_gpu::{FrameStats, PassTimer};
 use contrejour_plan::{Eye, Light};
 use contrejour_scene::{Camera, Scene};
 use cpu_time::ThreadTime;
@@ -56,10 +56,13 @@ pub struct Renderer {
     waits_asked_for: u64,
 }
 
-/// What one frame cost the CPU.
-#[derive(Clone, Copy, Debug)]
+/// What one frame cost the CPU. Unit of times: milliseconds.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CpuCost {
     pub cpu_ms: f64,
+    pub upload_ms: f64,
+    pub record_ms: f64,
+    pub submit_ms: f64,
     pub upload_bytes: u64,
 }
 
@@ -85,7 +88,7 @@ impl Renderer {
         let local = LocalSpace::around(&scene.camera);
         let casters = new_casters(&gpu, &local)?;
         let mut cast = CastShadows::new(&gpu, &casters)?;
-        let lights = SceneLights::new(&gpu, scene, &local, &mut cast)?;
+        let lights = SceneLights::new(scene, &local, &mut cast)?;
         cast.prepare(&gpu, &casters, lights.casting(), &local.camera(&scene.camera).as_eye(scene.aspect()))?;
         let mut pass = ScenePass::new(&gpu, lights.count());
         pass.prepare(&gpu, &cast, &lights.handles);
@@ -207,12 +210,14 @@ impl Renderer {
 
     fn draw_frame(&mut self, target: Target<'_>) -> Result<(), DrawError> {
         let clock = ThreadTime::now();
+        let ms = || 1000.0 * clock.elapsed().as_secs_f64();
         let eye_local = self.eye_local();
         self.cast.prepare(&self.gpu, &self.casters, self.lights.casting(), &eye_local)?;
         // A light may have gained or lost its size.
         self.pass.prepare(&self.gpu, &self.cast, &self.lights.handles);
         self.picture_pass.prepare(&self.gpu, target.1);
         let uniform_bytes = self.pass.upload(&self.gpu, &self.uniforms, &self.lights.records);
+        let uploaded = ms();
         let mut encoder = self.encoder();
         if let Some(deformer) = &self.casters.deformer {
             deformer.encode(&mut encoder, &mut self.timer);
@@ -222,13 +227,21 @@ impl Renderer {
         counter_log.end_frame();
         self.encode_picture(&mut encoder, target);
         self.timer.resolve(&mut encoder);
-        let submission = self.gpu.queue.submit([encoder.finish()]);
+        let commands = encoder.finish();
+        let recorded = ms();
+        let submission = self.gpu.queue.submit([commands]);
         self.timer.end_frame()?;
-        let cpu_ms = 1000.0 * clock.elapsed().as_secs_f64();
+        let cpu_ms = ms();
 
         let moved_bytes = std::mem::take(&mut self.casters.pose_bytes) + std::mem::take(&mut self.moved_bytes);
         let upload_bytes = uniform_bytes + moved_bytes + self.cast.shadows.stats().upload_bytes;
-        self.frames.push(CpuCost { cpu_ms, upload_bytes });
+        self.frames.push(CpuCost {
+            cpu_ms,
+            upload_ms: uploaded,
+            record_ms: recorded - uploaded,
+            submit_ms: cpu_ms - recorded,
+            upload_bytes,
+        });
         self.timer.collect();
         self.pace(submission)?;
         Ok(self.gpu.check()?)
@@ -262,6 +275,11 @@ impl Renderer {
             }
         }
         Err(DrawError::Incomplete)
+    }
+
+    /// What is known of the shadows of the frames so far.
+    pub fn shadow_stats(&self) -> FrameStats {
+        self.cast.shadows.stats()
     }
 
     /// Reads the last picture of [`draw`](Self::draw) back; waits for it.

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use contrejour_mesh::{
-    AnimatedModel, Animation, DeformingMesh, LoadError, PartPose, PoseError, TopologyAwareMesh, TopologyError,
-    TriangleMesh, UnknownAnimation, load_animated,
+    AnimatedModel, Animation, DeformingMesh, LoadError, PartPose, PoseError, TriangleMesh, UnknownAnimation,
+    load_animated,
 };
 use glam::DVec3;
 
@@ -158,15 +158,6 @@ impl AnimatedScene {
     /// The mesh of the model that a mesh of the scene is a pose of, at rest.
     pub fn rest_mesh(&self, mesh: usize) -> Option<&TriangleMesh> {
         self.model.file.meshes.get(self.model.file.nodes.get(mesh)?.mesh)
-    }
-
-    /// The topology of a mesh that deforms; none of others. It is that of the mesh at rest, whatever the pose.
-    ///
-    /// # Errors
-    ///
-    /// [`TopologyError`].
-    pub fn deforming_topology(&self, mesh: usize) -> Option<Result<TopologyAwareMesh, TopologyError>> {
-        Some(self.deforming(mesh)?.topology(self.rest_mesh(mesh)?))
     }
 }
 

@@ -9,6 +9,7 @@ pub fn trials() -> Vec<Trial> {
     vec![
         cpu_trial("stress::what_makes_no_sense_is_refused", nonsense_is_refused),
         gpu_trial("stress::verifies_lights_and_casters_of_all_kinds", verifies_all_kinds),
+        gpu_trial("stress::where_nothing_moves_nothing_is_drawn", stillness_costs_nothing),
         gpu_trial("stress::a_sweep_writes_a_table_and_a_plot", a_sweep_is_written),
     ]
 }
@@ -60,6 +61,21 @@ fn verifies_all_kinds() -> Outcome {
             if has_edges != (technique == "smoothies") {
                 return Err(format!("{kind}, {technique}: silhouettes where none are needed, or none: {told}"));
             }
+        }
+    }
+    Ok(())
+}
+
+/// Lights that see no change keep the maps of the first frame, which was drawn before the count begins.
+fn stillness_costs_nothing() -> Outcome {
+    for (line, drawn) in [("--still", 0), ("", 3)] {
+        let told =
+            Folder::new().run(&format!("stress --lights 1 --kind spot {SMALL} {line} --verify --json")).json()?;
+        let frames = told["frames"].as_u64().ok_or("frames are counted")?;
+        let [redone, kept] = if drawn == 0 { [0, frames] } else { [frames, 0] };
+        let is_as_told = told["lights_redone"] == redone && told["lights_kept"] == kept && told["differences"] == 0;
+        if !is_as_told || told["draws_recorded"] != drawn || (told["upload_bytes_per_frame"] == 0) != (drawn == 0) {
+            return Err(format!("{line:?}: {told}"));
         }
     }
     Ok(())

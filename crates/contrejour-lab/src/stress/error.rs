@@ -5,7 +5,8 @@ use contrejour_gpu::{
     PrepareError, ShadowLightError,
 };
 use contrejour_mesh::{DeformingMeshError, TopologyError};
-use contrejour_render::{DeviceFault, ReadError};
+use contrejour_render::{AnimationError, DeviceFault, DrawError, MoveError, NewRendererError, ReadError, SizeTooLarge};
+use contrejour_scene::shapes::ShapeError;
 
 use super::StressOptions;
 
@@ -59,12 +60,36 @@ pub enum StressError {
     /// What a frame left does not come back.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// The scene of the pictures does not fit on the device.
+    #[error(transparent)]
+    Renderer(#[from] NewRendererError),
+    /// The floor of the pictures has no shape.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// Something does not move in pictures.
+    #[error(transparent)]
+    Move(#[from] MoveError),
+    /// A pose is not shown.
+    #[error(transparent)]
+    Pose(#[from] AnimationError),
+    /// Pictures have no size, or are too large.
+    #[error(transparent)]
+    Size(#[from] SizeTooLarge),
+    /// A picture is not drawn.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
     /// The device failed.
     #[error(transparent)]
     Fault(#[from] DeviceFault),
     /// The device's clock can't be asked.
     #[error("the device's timestamps can't be had: {0}")]
     Timer(String),
+    /// The plan lists a map that is not there.
+    #[error("the map {map} of a light is listed and not there: contrejour is wrong, please report this")]
+    NoMap {
+        /// Its name.
+        map: &'static str,
+    },
     /// Lists never became large enough.
     #[error("the lists of a frame still have too little room after {0} repetitions")]
     Incomplete(usize),

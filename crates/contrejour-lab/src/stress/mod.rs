@@ -2,8 +2,9 @@
 //! is the exact one all the same.
 //!
 //! Casters are tori: every second one is mirrored, every third one stretched, and every fourth one bends by two joints and
-//! swells by a morph target. Lights and casters walk on paths that follow from a seed and the number of the frame alone, so that a run can be had
-//! again. [`run`] draws frame after frame for a while, and keeps two frames under way; [`Summary`] is what came of it.
+//! swells by a morph target. Lights and casters walk on paths that follow from a seed and the number of the frame alone, so
+//! that a run can be had again. [`run`] draws frame after frame for a while, with as many
+//! [under way](contrejour_render::Gpu::frames_in_flight) as any renderer of ours; [`Summary`] is what came of it.
 
 mod error;
 mod flexible;
@@ -11,6 +12,7 @@ mod kind;
 mod options;
 mod paths;
 mod run;
+mod show;
 mod summary;
 mod sweep;
 mod verify;
@@ -18,7 +20,8 @@ mod world;
 
 pub use error::StressError;
 pub use kind::LightMix;
-pub use options::StressOptions;
+pub use options::{Motion, StressOptions};
 pub use run::{Event, run};
+pub use show::Show;
 pub use summary::{StageTime, Summary};
 pub use sweep::{SWEEP_COLUMNS, Sweep, SweepAxis, sweep};

@@ -7,6 +7,16 @@ use contrejour_plan::ShadowSettings;
 use super::LightMix;
 use super::error::StressError;
 
+/// What changes from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Motion {
+    /// Lights and casters walk, and every fourth caster deforms.
+    #[default]
+    Walking,
+    /// Nothing moves, and no caster deforms.
+    Still,
+}
+
 /// What a run is made of.
 #[derive(Clone, Debug)]
 pub struct StressOptions {
@@ -18,6 +28,8 @@ pub struct StressOptions {
     pub casters: usize,
     /// Triangles of each caster, nearly. Range: 8 to [`MAX_TRIANGLES`](Self::MAX_TRIANGLES). Default: 1000.
     pub triangles_per_caster: usize,
+    /// What changes from frame to frame. Default: lights and casters walk.
+    pub motion: Motion,
     /// How long frames are drawn; one is drawn in any case. Default: 5 s.
     pub duration: Duration,
     /// How shadows are made.
@@ -36,6 +48,7 @@ impl Default for StressOptions {
             kind: LightMix::Mixed,
             casters: 16,
             triangles_per_caster: 1000,
+            motion: Motion::default(),
             duration: Duration::from_secs(5),
             settings: ShadowSettings::default(),
             verify: false,

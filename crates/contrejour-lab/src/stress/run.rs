@@ -18,9 +18,6 @@ use super::world::{Placed, World};
 /// Frames after which a frame must have had room for everything.
 const REPEATS_MAX: usize = 8;
 
-/// Frames that may be under way.
-const IN_FLIGHT: usize = 2;
-
 /// Of so many frames one is verified.
 const VERIFIED_OF: u64 = 16;
 
@@ -62,21 +59,25 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
     settle(gpu, &mut placed)?;
     let overflows_before = placed.shadows.stats().overflow_frames;
 
-    let mut summary = Summary::default();
+    let mut summary = Summary { device: gpu.description(), ..world.summary() };
     let mut costs = Costs::default();
     let mut random = fastrand::Rng::with_seed(options.seed ^ 0x5eed);
     let mut verifier = Verifier::new(&world);
     let mut submissions = VecDeque::new();
+    let mut resident_early = None;
     let clock = Instant::now();
     let mut frame = 0;
     while frame == 0 || clock.elapsed() < options.duration {
         frame += 1;
         let wall = Instant::now();
         submissions.push_back(draw(gpu, &world, &mut placed, frame, &mut costs)?);
-        while submissions.len() > IN_FLIGHT {
+        while submissions.len() > gpu.frames_in_flight() {
             gpu.wait(submissions.pop_front())?;
         }
         costs.wall.push(1000.0 * wall.elapsed().as_secs_f64());
+        if resident_early.is_none() && clock.elapsed() >= options.duration / 10 {
+            resident_early = Some(resident_bytes());
+        }
         let stats = placed.shadows.stats();
         summary.lights_redone += u64::from(stats.lights_redone);
         summary.lights_kept += u64::from(stats.lights_kept);
@@ -95,15 +96,12 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
         });
     }
     gpu.wait(None)?;
+    summary.resident_bytes_early = resident_early.flatten();
+    summary.resident_bytes_late = resident_bytes();
     summary.overflow_frames = placed.shadows.stats().overflow_frames - overflows_before;
     summary.stages = stages(gpu, &world, &mut placed, frame)?;
     gpu.check()?;
 
-    summary.device = gpu.description();
-    summary.lights = options.lights;
-    summary.casters = options.casters;
-    summary.triangles_per_caster = world.triangles.len();
-    summary.seed = options.seed;
     summary.frames = frame;
     summary.cpu_ms_per_frame = median(costs.cpu);
     summary.cpu_upload_ms = median(costs.upload);
@@ -115,6 +113,11 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
     summary.differences = verifier.differences;
     summary.first_difference = verifier.first_difference;
     Ok(summary)
+}
+
+/// What the program holds in memory, where the system tells.
+fn resident_bytes() -> Option<u64> {
+    memory_stats::memory_stats().map(|stats| stats.physical_mem as u64)
 }
 
 /// Draws the first frame until all lists have room, so that later ones create nothing.

@@ -51,6 +51,11 @@ pub struct Summary {
     pub lights_kept: u64,
     /// Buffers and textures of all lights. Unit: bytes.
     pub memory_bytes: u64,
+    /// What the whole program held in memory after a tenth of the frames' time; `None` where the system does not tell.
+    /// Unit: bytes.
+    pub resident_bytes_early: Option<u64>,
+    /// The same after the last frame: as much as before, or something grows. Unit: bytes.
+    pub resident_bytes_late: Option<u64>,
     /// Frames whose quads or corners found too little room.
     pub overflow_frames: u64,
     /// Lights of frames that were verified.

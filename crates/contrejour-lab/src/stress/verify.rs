@@ -9,7 +9,7 @@ use glam::{DMat4, DVec3};
 
 use super::error::StressError;
 use super::run::settle;
-use super::world::{FLEXIBLE_OF, Placed, World, is_flexible};
+use super::world::{Placed, World};
 
 /// Differences so far.
 pub(super) struct Verifier<'a> {
@@ -39,7 +39,7 @@ const CERTAINLY: f64 = 0.98;
 
 impl<'a> Verifier<'a> {
     pub fn new(world: &'a World) -> Self {
-        let topology = OracleTopology::new(&world.mesh.positions, &world.triangles);
+        let topology = OracleTopology::new(&world.mesh.positions, &world.triangles.triangles);
         let rigid = ManyLights::new(&topology);
         Self { world, rigid, flexible: topology, light_frames: 0, differences: 0, first_difference: None }
     }
@@ -91,7 +91,8 @@ impl<'a> Verifier<'a> {
                 let shrunk = [mesh.bounds_min, mesh.bounds_max].map(|corner| corner.map(|x| x * CERTAINLY as f32));
                 let bounds = ObjectBox { min: shrunk[0], max: shrunk[1], world_from_object: *place };
                 // Nobody knows where the positions of the others are.
-                if is_flexible(index) || expected.casts != 0 && view.can_see(&bounds, CERTAINLY * reach_ndc) {
+                let is_anywhere = self.world.flexible_index(index).is_some();
+                if is_anywhere || expected.casts != 0 && view.can_see(&bounds, CERTAINLY * reach_ndc) {
                     self.differ(&format!("{what}: caster {index} is left out"));
                 }
                 continue;
@@ -100,7 +101,7 @@ impl<'a> Verifier<'a> {
                 self.differ(&format!("{what}: caster {index} sees another light"));
             }
             if !left.pages.is_empty() {
-                let oracle = if is_flexible(index) { &deformed[index / FLEXIBLE_OF] } else { &self.rigid };
+                let oracle = self.world.flexible_index(index).map_or(&self.rigid, |index| &deformed[index]);
                 let is_same = self.has_silhouette(oracle, &expected, index, &silhouettes);
                 if !is_same {
                     self.differ(&format!("{what}: caster {index} has another silhouette"));
@@ -118,7 +119,8 @@ impl<'a> Verifier<'a> {
         caster: usize,
         silhouettes: &[SilhouetteEdge],
     ) -> bool {
-        let mesh = if is_flexible(caster) { &self.world.flexible.topology } else { &self.world.mesh };
+        let is_rigid = self.world.flexible_index(caster).is_none();
+        let mesh = if is_rigid { &self.world.mesh } else { &self.world.flexible.topology };
         let lit = oracle.lit_faces(light.light_object.map(f32::from_bits), light.mirrored == 1);
         let of_caster = silhouettes.iter().filter(|edge| edge.caster as usize == caster);
         let mut found: Vec<_> = of_caster
@@ -228,7 +230,7 @@ fn maps(gpu: &Gpu, shadows: &Shadows, light: LightHandle) -> Result<Vec<u8>, Str
     let kinds = shadows.plan(light).and_then(|plan| plan.visibility).map_or(&[][..], |kind| kind.textures());
     let mut bytes = Vec::new();
     for kind in kinds {
-        let Some(map) = maps.of(*kind) else { continue };
+        let map = maps.of(*kind).ok_or(StressError::NoMap { map: kind.name() })?;
         let aspect = map.format().has_depth_aspect().then_some(wgpu::TextureAspect::DepthOnly);
         let texel = map.format().block_copy_size(aspect).unwrap_or(4);
         for layer in 0..map.depth_or_array_layers() {

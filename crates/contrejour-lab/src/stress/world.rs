@@ -12,15 +12,16 @@ use glam::DMat4;
 
 use super::error::StressError;
 use super::flexible::Flexible;
-use super::options::StressOptions;
+use super::options::{Motion, StressOptions};
 use super::paths::Path;
-use crate::torus::torus;
+use super::summary::Summary;
+use crate::torus::{Triangles, torus};
 
 /// Everything of a run that moves.
 #[derive(Debug)]
 pub(super) struct World {
     pub mesh: Arc<TopologyAwareMesh>,
-    pub triangles: Vec<[u32; 3]>,
+    pub triangles: Triangles,
     pub flexible: Flexible,
     casters: Vec<Path>,
     lights: Vec<Path>,
@@ -38,13 +39,8 @@ pub(super) struct Placed {
     flexible: Vec<DeformHandle>,
 }
 
-/// One caster in so many deforms.
-pub(super) const FLEXIBLE_OF: usize = 4;
-
-/// Whether the caster of an index deforms.
-pub(super) fn is_flexible(index: usize) -> bool {
-    index % FLEXIBLE_OF == FLEXIBLE_OF - 1
-}
+/// One caster in so many deforms, where things move.
+const FLEXIBLE_OF: usize = 4;
 
 impl World {
     pub fn new(options: &StressOptions) -> Result<Self, StressError> {
@@ -59,7 +55,7 @@ impl World {
         let mut random = fastrand::Rng::with_seed(options.seed);
         Ok(Self {
             mesh: Arc::new(topology),
-            triangles: mesh.triangles,
+            triangles: mesh,
             flexible,
             casters: (0..options.casters).map(|index| Path::of_caster(&mut random, index, room)).collect(),
             lights: (0..options.lights).map(|_| Path::of_light(&mut random)).collect(),
@@ -68,21 +64,70 @@ impl World {
         })
     }
 
+    /// Among the casters that deform, the index of a caster; `None` where it does not.
+    pub fn flexible_index(&self, caster: usize) -> Option<usize> {
+        let deforms = self.options.motion == Motion::Walking && caster % FLEXIBLE_OF == FLEXIBLE_OF - 1;
+        deforms.then_some(caster / FLEXIBLE_OF)
+    }
+
+    /// The frame in whose places things are.
+    fn moment(&self, frame: u64) -> u64 {
+        match self.options.motion {
+            Motion::Walking => frame,
+            Motion::Still => 0,
+        }
+    }
+
     /// World space from each caster's object space in a frame.
     pub fn casters(&self, frame: u64) -> impl Iterator<Item = DMat4> {
-        self.casters.iter().map(move |path| path.matrix(frame))
+        let moment = self.moment(frame);
+        self.casters.iter().map(move |path| path.matrix(moment))
     }
 
     /// The poses of the casters that deform, in their order.
     pub fn poses(&self, frame: u64) -> Vec<PartPose> {
-        let flexible = self.casters.iter().enumerate().filter(|(index, _)| is_flexible(*index));
+        let flexible = self.casters.iter().enumerate().filter(|(index, _)| self.flexible_index(*index).is_some());
         flexible.map(|(_, path)| self.flexible.pose(path.swing(frame))).collect()
+    }
+
+    /// The poses of all casters, in their order.
+    pub fn part_poses(&self, frame: u64) -> Vec<PartPose> {
+        let moment = self.moment(frame);
+        let pose = |(index, path): (usize, &Path)| {
+            let pose = match self.flexible_index(index) {
+                Some(_) => self.flexible.pose(path.swing(moment)),
+                None => PartPose { world_from_object: DMat4::IDENTITY, joint_matrices: vec![], morph_weights: vec![] },
+            };
+            PartPose { world_from_object: path.matrix(moment), ..pose }
+        };
+        self.casters.iter().enumerate().map(pose).collect()
     }
 
     /// The lights in a frame.
     pub fn lights(&self, frame: u64) -> impl Iterator<Item = Light> {
-        let light = move |(index, path): (usize, &Path)| self.options.kind.light(index, path.place(frame), self.room);
+        let moment = self.moment(frame);
+        let light = move |(index, path): (usize, &Path)| self.options.kind.light(index, path.place(moment), self.room);
         self.lights.iter().enumerate().map(light)
+    }
+
+    pub fn caster_count(&self) -> usize {
+        self.casters.len()
+    }
+
+    /// Radius of the room in which casters walk.
+    pub fn room(&self) -> f64 {
+        self.room
+    }
+
+    /// What is known before the first frame.
+    pub fn summary(&self) -> Summary {
+        Summary {
+            lights: self.options.lights,
+            casters: self.options.casters,
+            triangles_per_caster: self.triangles.triangles.len(),
+            seed: self.options.seed,
+            ..Summary::default()
+        }
     }
 
     pub fn settings(&self) -> &ShadowSettings {
@@ -102,13 +147,13 @@ impl World {
         let flexible_mesh = shadows.add_mesh(Arc::clone(&self.flexible.topology))?;
         let mut casters = Vec::new();
         for (index, world_from_object) in self.casters(frame).enumerate() {
-            let positions = is_flexible(index).then(|| deformer.positions(flexible[index / FLEXIBLE_OF])).flatten();
+            let positions = self.flexible_index(index).and_then(|index| deformer.positions(flexible[index]));
             let mesh = if positions.is_some() { flexible_mesh } else { rigid_mesh };
             let positions = positions.unwrap_or_default();
             casters.push(shadows.add_caster(&CasterInput { mesh, world_from_object, positions })?);
         }
         let options = ShadowOptions { settings: *self.settings(), ..ShadowOptions::default() };
-        let lights = self.lights(frame).map(|light| shadows.add_light(&gpu.device, &light, &options));
+        let lights = self.lights(frame).map(|light| shadows.add_light(&light, &options));
         let lights = lights.collect::<Result<_, _>>()?;
         Ok(Placed { shadows, deformer, casters, lights, flexible })
     }
