@@ -97,7 +97,7 @@ fn what_is_no_camera_or_light_is_refused() {
     };
     for perspective in [
         json!({"yfov": 0, "znear": 0.1}),
-        json!({"yfov": 3.14, "znear": 0.1}),
+        json!({"yfov": 3.13, "znear": 0.1}),
         json!({"yfov": 1, "znear": 0}),
         json!({"yfov": 1, "znear": 0.1, "zfar": 0.1}),
         json!({"yfov": 1, "znear": 0.1, "zfar": 1e300}),
