@@ -56,7 +56,6 @@ struct Shown {
     gpu: Gpu,
     show: Show,
     window: Arc<Window>,
-    begin: Instant,
     told: Instant,
     frames_since: u32,
 }
@@ -68,11 +67,8 @@ impl App<'_> {
             .with_inner_size(LogicalSize::new(f64::from(SIZE[0]), f64::from(SIZE[1])));
         let window = event_loop.create_window(attributes).map_err(|error| WindowError::Display(error.to_string()))?;
         let window = Arc::new(window);
-        let descriptor = wgpu::InstanceDescriptor {
-            backends: wgpu::Backends::PRIMARY,
-            ..wgpu::InstanceDescriptor::new_with_display_handle(Box::new(event_loop.owned_display_handle()))
-        };
-        let instance = wgpu::Instance::new(descriptor.with_env());
+        let display = Box::new(event_loop.owned_display_handle());
+        let instance = wgpu::Instance::new(Gpu::instance_descriptor().with_display_handle(display));
         let no_surface = |error: &dyn std::error::Error| WindowError::Surface(one_line(error));
         let surface = instance.create_surface(Arc::clone(&window)).map_err(|error| no_surface(&error))?;
         let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
@@ -87,8 +83,7 @@ impl App<'_> {
         let config = config.ok_or_else(|| WindowError::Surface(gpu.description()))?;
         surface.configure(&gpu.device, &config);
         let show = Show::new(gpu.clone(), self.options, [width, height])?;
-        let now = Instant::now();
-        Ok(Shown { surface, config, gpu, show, window, begin: now, told: now, frames_since: 0 })
+        Ok(Shown { surface, config, gpu, show, window, told: Instant::now(), frames_since: 0 })
     }
 
     fn end(&mut self, event_loop: &ActiveEventLoop, ended: Result<Summary, Failure>) {
@@ -129,7 +124,7 @@ impl ApplicationHandler for App<'_> {
             WindowEvent::RedrawRequested => {
                 if let Err(error) = shown.draw() {
                     self.end(event_loop, Err(error));
-                } else if shown.begin.elapsed() >= self.options.duration {
+                } else if shown.show.is_over() {
                     self.close(event_loop);
                 }
             }

@@ -88,13 +88,22 @@ impl Gpu {
         Self::open_with(Extras::None)
     }
 
-    fn open_with(extras: Extras) -> Result<Self, OpenGpuError> {
-        // OpenGL has less than WebGPU's defaults; to look for it costs time and lines on standard error.
+    /// What we ask of wgpu, before the environment has its say.
+    ///
+    /// Arguments of indirect dispatches and draws are not checked again: the stages that write them clamp them, and our
+    /// tests run with wgpu's check, which is a dispatch more for each.
+    pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
         let descriptor = wgpu::InstanceDescriptor {
+            // OpenGL has less than WebGPU's defaults; to look for it costs time and lines on standard error.
             backends: wgpu::Backends::PRIMARY,
+            flags: wgpu::InstanceFlags::default().difference(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL),
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         };
-        let instance = wgpu::Instance::new(descriptor.with_env());
+        descriptor.with_env()
+    }
+
+    fn open_with(extras: Extras) -> Result<Self, OpenGpuError> {
+        let instance = wgpu::Instance::new(Self::instance_descriptor());
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()

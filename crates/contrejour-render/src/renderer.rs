@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use contrejour_gpu::{FrameStats, PassTimer};
+use contrejour_gpu::{LightHandle, PassTimer, Shadows};
 use contrejour_plan::{Eye, Light};
 use contrejour_scene::{Camera, Scene};
 use cpu_time::ThreadTime;
@@ -277,9 +277,14 @@ impl Renderer {
         Err(DrawError::Incomplete)
     }
 
-    /// What is known of the shadows of the frames so far.
-    pub fn shadow_stats(&self) -> FrameStats {
-        self.cast.shadows.stats()
+    /// The shadows of the scene.
+    pub fn shadows(&self) -> &Shadows {
+        &self.cast.shadows
+    }
+
+    /// The lights that cast, in their order in the scene.
+    pub fn casting_lights(&self) -> impl Iterator<Item = LightHandle> {
+        self.lights.handles.iter().copied().flatten()
     }
 
     /// Reads the last picture of [`draw`](Self::draw) back; waits for it.

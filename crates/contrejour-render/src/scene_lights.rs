@@ -4,10 +4,10 @@ use contrejour_gpu::LightHandle;
 use contrejour_plan::{Light, LightError};
 use contrejour_scene::{Scene, SceneLight};
 
+use crate::LocalSpace;
 use crate::casters::CastShadows;
 use crate::error::NewRendererError;
 use crate::surface_light::SurfaceLight;
-use crate::LocalSpace;
 
 /// The lights, as the scene, the device's maps and the picture's shader have them.
 #[derive(Debug)]

@@ -49,8 +49,8 @@ impl LightMix {
             Self::Directional => LightKind::Directional {
                 towards_light: place,
                 center: DVec3::ZERO,
-                half_extent: 1.3 * room,
-                half_depth: 1.5 * room,
+                half_extent: 2.2 * room,
+                half_depth: 2.5 * room,
                 angular_radius: 0.01,
             },
             Self::Spot | Self::Mixed => LightKind::Spot {

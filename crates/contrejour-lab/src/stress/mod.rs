@@ -13,6 +13,7 @@ mod options;
 mod paths;
 mod run;
 mod show;
+mod stopwatch;
 mod summary;
 mod sweep;
 mod verify;

@@ -7,6 +7,9 @@ use glam::{DMat4, DQuat, DVec3};
 /// Frames in a second of the paths.
 const FRAMES_A_SECOND: f64 = 60.0;
 
+/// How far lights go along the axes: less up and down than to the sides.
+const ABOVE: DVec3 = DVec3::new(1.0, 0.5, 1.0);
+
 /// A way around a point, with a speed and a tilt of its own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
@@ -34,12 +37,12 @@ impl Path {
         }
     }
 
-    /// The path of a light: a direction from the middle of the room, or a place in it by its length.
+    /// The path of a light: a direction from the middle of the room, or a place in it by its length; always from above.
     pub fn of_light(random: &mut fastrand::Rng) -> Self {
         let mut vector = |size: f64| size * DVec3::from([(); 3].map(|()| 2.0 * random.f64() - 1.0));
         Self {
-            middle: vector(0.6) + 0.3 * DVec3::Y,
-            reach: vector(0.3),
+            middle: vector(0.6) * ABOVE + 0.7 * DVec3::Y,
+            reach: vector(0.3) * ABOVE,
             turns_a_second: DVec3::splat(0.1) + vector(0.05),
             phase: vector(0.5),
             scale: DVec3::ONE,

@@ -1,16 +1,14 @@
 //! Frame after frame.
 
 use std::collections::VecDeque;
-use std::time::Instant;
 
 use contrejour_gpu::Untimed;
-use contrejour_layout::BLOCK_SIZE;
-use contrejour_plan::FramePlan;
 use contrejour_render::{Gpu, StageTimer};
 use cpu_time::ThreadTime;
 
 use super::error::StressError;
 use super::options::StressOptions;
+use super::stopwatch::Stopwatch;
 use super::summary::{StageTime, Summary, median};
 use super::verify::Verifier;
 use super::world::{Placed, World};
@@ -45,7 +43,6 @@ struct Costs {
     upload: Vec<f64>,
     record: Vec<f64>,
     submit: Vec<f64>,
-    wall: Vec<f64>,
 }
 
 /// Draws frames for a while and says what came of it.
@@ -64,26 +61,20 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
     let mut random = fastrand::Rng::with_seed(options.seed ^ 0x5eed);
     let mut verifier = Verifier::new(&world);
     let mut submissions = VecDeque::new();
-    let mut resident_early = None;
-    let clock = Instant::now();
+    let mut watch = Stopwatch::start(options.duration);
     let mut frame = 0;
-    while frame == 0 || clock.elapsed() < options.duration {
+    while frame == 0 || !watch.is_over() {
         frame += 1;
-        let wall = Instant::now();
+        watch.begin_frame();
         submissions.push_back(draw(gpu, &world, &mut placed, frame, &mut costs)?);
         while submissions.len() > gpu.frames_in_flight() {
             gpu.wait(submissions.pop_front())?;
         }
-        costs.wall.push(1000.0 * wall.elapsed().as_secs_f64());
-        if resident_early.is_none() && clock.elapsed() >= options.duration / 10 {
-            resident_early = Some(resident_bytes());
-        }
+        watch.end_frame();
         let stats = placed.shadows.stats();
         summary.lights_redone += u64::from(stats.lights_redone);
         summary.lights_kept += u64::from(stats.lights_kept);
         summary.upload_bytes_per_frame = stats.upload_bytes + placed.deformer.upload_bytes();
-        summary.draws_recorded = stats.draws_recorded;
-        summary.dispatches_recorded = stats.dispatches_recorded;
         if options.verify && (frame == 1 || random.u64(..VERIFIED_OF) == 0) {
             gpu.wait(None)?;
             submissions.clear();
@@ -96,9 +87,9 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
         });
     }
     gpu.wait(None)?;
-    summary.resident_bytes_early = resident_early.flatten();
-    summary.resident_bytes_late = resident_bytes();
+    watch.tell(&mut summary);
     summary.overflow_frames = placed.shadows.stats().overflow_frames - overflows_before;
+    summary.count(&placed.shadows, placed.lights.iter().copied());
     summary.stages = stages(gpu, &world, &mut placed, frame)?;
     gpu.check()?;
 
@@ -107,17 +98,10 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
     summary.cpu_upload_ms = median(costs.upload);
     summary.cpu_record_ms = median(costs.record);
     summary.cpu_submit_ms = median(costs.submit);
-    summary.wall_ms_per_frame = median(costs.wall);
-    add_counts(&mut summary, &placed);
     summary.verified_light_frames = verifier.light_frames;
     summary.differences = verifier.differences;
     summary.first_difference = verifier.first_difference;
     Ok(summary)
-}
-
-/// What the program holds in memory, where the system tells.
-fn resident_bytes() -> Option<u64> {
-    memory_stats::memory_stats().map(|stats| stats.physical_mem as u64)
 }
 
 /// Draws the first frame until all lists have room, so that later ones create nothing.
@@ -186,19 +170,4 @@ fn stages(gpu: &Gpu, world: &World, placed: &mut Placed, last: u64) -> Result<Ve
         gpu_ms: median(stage.times_ms.clone()),
     };
     Ok(timer.stages().iter().map(time).collect())
-}
-
-fn add_counts(summary: &mut Summary, placed: &Placed) {
-    let counters = placed.shadows.stats().counters.unwrap_or_default();
-    summary.faces_tested = u64::from(counters.face_items) * u64::from(BLOCK_SIZE);
-    summary.edges_tested = u64::from(counters.edge_items) * u64::from(BLOCK_SIZE);
-    summary.silhouette_edges = counters.silhouette_edges.into();
-    let plans: Vec<&FramePlan> = placed.lights.iter().filter_map(|light| placed.shadows.plan(*light)).collect();
-    let of_lights = plans.iter().flat_map(|plan| &plan.buffers).filter(|buffer| buffer.kind.is_of_light());
-    let shared = plans.first().map_or(&[][..], |plan| &plan.buffers);
-    let shared = shared.iter().filter(|buffer| !buffer.kind.is_of_light());
-    let textures = plans.iter().flat_map(|plan| &plan.textures);
-    summary.memory_bytes = of_lights.chain(shared).map(|buffer| buffer.bytes).sum::<u64>()
-        + textures.map(|texture| texture.bytes).sum::<u64>();
-    summary.views = placed.lights.iter().map(|light| placed.shadows.view_choice(*light).views()).sum();
 }

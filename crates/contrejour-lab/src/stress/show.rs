@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use contrejour_layout::BLOCK_SIZE;
 use contrejour_mesh::{DeformingMesh, TriangleMesh};
 use contrejour_plan::Light;
-use contrejour_render::{DeformingMeshes, Gpu, Renderer};
+use contrejour_render::{DeformingMeshes, Gpu, Renderer, StageCost};
 use contrejour_scene::shapes::Shape;
 use contrejour_scene::{Camera, Material, MeshSource, Scene, SceneLight, SceneMesh};
 use cpu_time::ThreadTime;
@@ -13,6 +12,7 @@ use glam::{DMat4, DVec3};
 
 use super::error::StressError;
 use super::options::StressOptions;
+use super::stopwatch::Stopwatch;
 use super::summary::{StageTime, Summary, median};
 use super::world::World;
 use crate::torus::Triangles;
@@ -27,6 +27,7 @@ pub struct Show {
     scene: Scene,
     renderer: Renderer,
     summary: Summary,
+    watch: Stopwatch,
     /// CPU time that placing took, frame by frame. Unit: milliseconds.
     placing: Vec<f64>,
 }
@@ -39,15 +40,15 @@ const CASTER_COLORS: [[f32; 3]; 5] =
 const LIGHT_COLORS: [[f32; 3]; 4] = [[1.0, 0.88, 0.7], [0.68, 0.84, 1.0], [1.0, 0.72, 0.56], [0.84, 0.95, 0.78]];
 
 /// What all lights together shed on a white surface.
-const BRIGHTNESS: f32 = 2.4;
+const BRIGHTNESS: f32 = 1.9;
 
 const FLOOR_COLOR: [f32; 3] = [0.72, 0.7, 0.67];
 
-/// The floor's side, over the room's radius.
-const FLOOR_SIDE: f64 = 12.0;
+/// The floor's side, over the room's radius: what suns shadow goes on beyond it.
+const FLOOR_SIDE: f64 = 2.6;
 
 /// From the middle of the room to the eye, over the room's radius.
-const EYE: DVec3 = DVec3::new(1.3, 1.5, 2.4);
+const EYE: DVec3 = DVec3::new(0.95, 1.2, 2.7);
 
 impl Show {
     /// Sets the world up.
@@ -61,7 +62,13 @@ impl Show {
         let deforming = Deforming { world: &world, scene: &scene };
         let summary = Summary { device: gpu.description(), ..world.summary() };
         let renderer = Renderer::new_posed(gpu, &scene, &deforming, &world.part_poses(0))?;
-        Ok(Self { world, scene, renderer, summary, placing: Vec::new() })
+        let watch = Stopwatch::start(options.duration);
+        Ok(Self { world, scene, renderer, summary, watch, placing: Vec::new() })
+    }
+
+    /// Whether the time of the run is over.
+    pub fn is_over(&self) -> bool {
+        self.watch.is_over()
     }
 
     /// Draws pictures of another size from now on, in pixels.
@@ -80,6 +87,7 @@ impl Show {
     ///
     /// The device does not allow the frame, or fails.
     pub fn draw_into(&mut self, view: &wgpu::TextureView, format: wgpu::TextureFormat) -> Result<f64, StressError> {
+        self.watch.begin_frame();
         self.summary.frames += 1;
         let frame = self.summary.frames;
         let clock = ThreadTime::now();
@@ -91,9 +99,10 @@ impl Show {
         }
         self.placing.push(ms());
         self.renderer.draw_into(view, format)?;
-        let stats = self.renderer.shadow_stats();
+        let stats = self.renderer.shadows().stats();
         self.summary.lights_redone += u64::from(stats.lights_redone);
         self.summary.lights_kept += u64::from(stats.lights_kept);
+        self.watch.end_frame();
         Ok(ms())
     }
 
@@ -104,25 +113,21 @@ impl Show {
     /// The device fails.
     pub fn finish(mut self) -> Result<Summary, StressError> {
         let measured = self.renderer.measurements()?;
-        let stats = self.renderer.shadow_stats();
-        let counters = stats.counters.unwrap_or_default();
         let placing = median(self.placing);
-        let time = |stage: &contrejour_render::StageCost| StageTime { name: stage.name.clone(), gpu_ms: stage.gpu_ms };
-        Ok(Summary {
+        let time = |stage: &StageCost| StageTime { name: stage.name.clone(), gpu_ms: stage.gpu_ms };
+        let mut summary = Summary {
             cpu_ms_per_frame: placing + measured.cpu_ms_per_frame,
             cpu_upload_ms: placing + measured.cpu_upload_ms,
             cpu_record_ms: measured.cpu_record_ms,
             cpu_submit_ms: measured.cpu_submit_ms,
             upload_bytes_per_frame: measured.upload_bytes_per_frame,
-            draws_recorded: stats.draws_recorded,
-            dispatches_recorded: stats.dispatches_recorded,
             stages: measured.stages.iter().map(time).collect(),
-            faces_tested: u64::from(counters.face_items) * u64::from(BLOCK_SIZE),
-            edges_tested: u64::from(counters.edge_items) * u64::from(BLOCK_SIZE),
-            silhouette_edges: counters.silhouette_edges.into(),
             overflow_frames: measured.overflow_frames,
             ..self.summary
-        })
+        };
+        summary.count(self.renderer.shadows(), self.renderer.casting_lights());
+        self.watch.tell(&mut summary);
+        Ok(summary)
     }
 }
 
@@ -166,7 +171,7 @@ fn scene(world: &World, size: [u32; 2]) -> Result<Scene, StressError> {
     Ok(Scene {
         camera: Camera {
             eye: room * EYE,
-            target: -0.5 * room * DVec3::Y,
+            target: -0.2 * room * DVec3::Y,
             up: DVec3::Y,
             fov_y: 0.8,
             near: 0.05 * room,

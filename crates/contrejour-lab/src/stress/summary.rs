@@ -1,5 +1,8 @@
 //! What a run came to.
 
+use contrejour_gpu::{LightHandle, Shadows};
+use contrejour_layout::BLOCK_SIZE;
+use contrejour_plan::FramePlan;
 use serde::Serialize;
 
 /// What a run came to.
@@ -64,6 +67,28 @@ pub struct Summary {
     pub differences: u64,
     /// The first of them, in words.
     pub first_difference: Option<String>,
+}
+
+impl Summary {
+    /// Adds what the last frame left.
+    pub(super) fn count(&mut self, shadows: &Shadows, lights: impl Iterator<Item = LightHandle>) {
+        let lights: Vec<_> = lights.collect();
+        let stats = shadows.stats();
+        let counters = stats.counters.unwrap_or_default();
+        self.draws_recorded = stats.draws_recorded;
+        self.dispatches_recorded = stats.dispatches_recorded;
+        self.faces_tested = u64::from(counters.face_items) * u64::from(BLOCK_SIZE);
+        self.edges_tested = u64::from(counters.edge_items) * u64::from(BLOCK_SIZE);
+        self.silhouette_edges = counters.silhouette_edges.into();
+        let plans: Vec<&FramePlan> = lights.iter().filter_map(|light| shadows.plan(*light)).collect();
+        let of_lights = plans.iter().flat_map(|plan| &plan.buffers).filter(|buffer| buffer.kind.is_of_light());
+        let shared = plans.first().map_or(&[][..], |plan| &plan.buffers);
+        let shared = shared.iter().filter(|buffer| !buffer.kind.is_of_light());
+        let textures = plans.iter().flat_map(|plan| &plan.textures);
+        self.memory_bytes = of_lights.chain(shared).map(|buffer| buffer.bytes).sum::<u64>()
+            + textures.map(|texture| texture.bytes).sum::<u64>();
+        self.views = lights.iter().map(|light| shadows.view_choice(*light).views()).sum();
+    }
 }
 
 /// How long a stage or a pass took.
