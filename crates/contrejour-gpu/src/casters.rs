@@ -203,20 +203,24 @@ impl Casters {
         self.moved.clear();
     }
 
-    /// Copies of all positions that are the caller's: they follow the meshes' own in the pool, by ascending slot.
+    /// Copies of all positions that are the caller's: they follow the meshes' own in the pool, by ascending slot. What lies
+    /// side by side in a buffer is one copy, so those of a deformer are few.
     pub fn live_copies(&self, meshes: &MeshPool) -> Vec<LiveCopy> {
         let mut next_word = meshes.position_words();
-        let mut copies = Vec::new();
+        let mut copies: Vec<LiveCopy> = Vec::new();
         for live in self.slots.iter().filter_map(|(_, caster)| caster.live.as_ref()) {
-            if live.vertex_count > 0 {
-                copies.push(LiveCopy {
-                    source: live.buffer.clone(),
-                    source_offset: live.offset,
-                    target_offset: 4 * next_word,
-                    size: 4 * live.words(),
-                });
-            }
+            let (target_offset, size) = (4 * next_word, 4 * live.words());
             next_word += live.words();
+            match copies.last_mut() {
+                Some(last) if last.source == live.buffer && last.source_offset + last.size == live.offset => {
+                    last.size += size;
+                }
+                _ if size == 0 => {}
+                _ => {
+                    let source = live.buffer.clone();
+                    copies.push(LiveCopy { source, source_offset: live.offset, target_offset, size });
+                }
+            }
         }
         copies
     }
