@@ -4,7 +4,7 @@
 
 @fragment
 fn fragment_ambient(vertex: ShadeVertex) -> @location(0) vec4f {
-    let face_normal = face_normal_local(vertex.position_local, vertex.centre_local);
+    let face_normal = face_normal_local(seen_local(vertex), vertex.centre_local);
     let normal = shading_normal(vertex.normal_local, face_normal);
     // Alpha 0: no light was added yet.
     return vec4f(base_color(vertex) * ambient_at(normal), 0.0);

@@ -4,8 +4,9 @@
 
 @fragment
 fn fragment_shade(vertex: ShadeVertex) -> @location(0) vec4f {
-    let face_normal = face_normal_local(vertex.position_local, vertex.centre_local);
-    let visibility = contrejour_visibility(vertex.position_local, face_normal);
+    let position_local = seen_local(vertex);
+    let face_normal = face_normal_local(position_local, vertex.centre_local);
+    let visibility = contrejour_visibility(position_local, face_normal);
     // Blending makes of alpha 1 what says that this light was added.
     return vec4f(lit(vertex, face_normal, visibility), 1.0);
 }
@@ -13,7 +14,8 @@ fn fragment_shade(vertex: ShadeVertex) -> @location(0) vec4f {
 // Visibility alone: black where the light is hidden, white where it is seen.
 @fragment
 fn fragment_show_visibility(vertex: ShadeVertex) -> @location(0) vec4f {
-    let face_normal = face_normal_local(vertex.position_local, vertex.centre_local);
-    let visibility = contrejour_visibility(vertex.position_local, face_normal);
+    let position_local = seen_local(vertex);
+    let face_normal = face_normal_local(position_local, vertex.centre_local);
+    let visibility = contrejour_visibility(position_local, face_normal);
     return vec4f(vec3f(received_visibility(visibility)), 1.0);
 }

@@ -15,8 +15,9 @@ struct ShadeVertex {
     @builtin(position) @invariant clip: vec4f,
     // At the pixel's centre, even where that is outside the triangle: for derivatives.
     @location(0) centre_local: vec3f,
-    // Inside the triangle: for everything else.
-    @location(1) @interpolate(perspective, centroid) position_local: vec3f,
+    // Inside the triangle: for everything else. Drivers may interpolate there and divide by the eye's w at the centre, as
+    // lavapipe does; that scales these alike, so the ratios to this w, which would be 1, are right.
+    @location(1) @interpolate(perspective, centroid) inside_local: vec4f,
     @location(2) @interpolate(perspective, centroid) normal_local: vec3f,
     @location(3) @interpolate(perspective, centroid) color: vec3f,
     @location(4) @interpolate(perspective, centroid) texture_coordinates: vec2f,
@@ -34,11 +35,12 @@ fn vertex_shade(
     @location(2) color: vec3f,
     @location(3) texture_coordinates: vec2f,
 ) -> ShadeVertex {
+    let inside_local = surface.local_from_vertex * vec4f(position, 1.0);
     let position_local = local_position(position);
     return ShadeVertex(
         frame.eye_clip_from_local * vec4f(position_local, 1.0),
         position_local,
-        position_local,
+        inside_local,
         surface.local_normal_from_object * normal,
         color,
         texture_coordinates,
@@ -46,18 +48,24 @@ fn vertex_shade(
     );
 }
 
+// Where light and shadow are asked for.
+fn seen_local(vertex: ShadeVertex) -> vec3f {
+    return vertex.inside_local.xyz / vertex.inside_local.w;
+}
+
 // Vertex colour times texture, or what the scene gives in their place.
 fn base_color(vertex: ShadeVertex) -> vec3f {
     let across = dpdx(vertex.centre_coordinates);
     let down = dpdy(vertex.centre_coordinates);
-    let texel = textureSampleGrad(base_color_texture, base_color_sampler, vertex.texture_coordinates, across, down);
-    return select(vertex.color * texel.rgb, surface.base_color.rgb, surface.base_color.w == 1.0);
+    let coordinates = vertex.texture_coordinates / vertex.inside_local.w;
+    let texel = textureSampleGrad(base_color_texture, base_color_sampler, coordinates, across, down);
+    return select(vertex.color / vertex.inside_local.w * texel.rgb, surface.base_color.rgb, surface.base_color.w == 1.0);
 }
 
 // What the surface sends to the eye of the light where it is visible by this much.
 fn lit(vertex: ShadeVertex, face_normal: vec3f, visibility: f32) -> vec3f {
     let normal = shading_normal(vertex.normal_local, face_normal);
-    let received = light_at(vertex.position_local, normal) * received_visibility(visibility);
+    let received = light_at(seen_local(vertex), normal) * received_visibility(visibility);
     return min(base_color(vertex) * received, vec3f(BRIGHTEST_LIGHT));
 }
 
