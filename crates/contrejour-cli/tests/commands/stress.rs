@@ -43,6 +43,8 @@ fn nonsense_is_refused() -> Outcome {
     folder.refuses("stress --kind sun", &["sun", "directional"])?;
     folder.refuses("stress --seconds 0", &["--seconds"])?;
     folder.refuses("stress --triangles-per-caster 3", &["3", "triangles"])?;
+    folder.refuses("stress --casters 99999999999", &["99999999999", "casters", "65536"])?;
+    folder.refuses("stress --lights 1025", &["1025", "lights", "1024"])?;
     folder.refuses("stress --sweep maps", &["maps", "casters"])?;
     Folder::with(&[("taken", "an older file")]).refuses("stress --sweep lights -o taken", &["taken"])
 }

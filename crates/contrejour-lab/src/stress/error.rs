@@ -24,6 +24,16 @@ pub enum StressError {
         /// Triangles that were asked for.
         triangles: usize,
     },
+    /// There are more lights or casters than a run has.
+    #[error("{count} {what}: give at most {most}")]
+    TooMany {
+        /// Lights or casters.
+        what: &'static str,
+        /// How many.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// The mesh of the casters has no topology.
     #[error(transparent)]
     Topology(#[from] TopologyError),

@@ -20,11 +20,11 @@ pub enum Motion {
 /// What a run is made of.
 #[derive(Clone, Debug)]
 pub struct StressOptions {
-    /// Lights. Range: 0 and up. Default: 8.
+    /// Lights. Range: 0 to [`MAX_LIGHTS`](Self::MAX_LIGHTS). Default: 8.
     pub lights: usize,
     /// Their kinds. Default: mixed.
     pub kind: LightMix,
-    /// Casters. Range: 0 and up. Default: 16.
+    /// Casters. Range: 0 to [`MAX_CASTERS`](Self::MAX_CASTERS). Default: 16.
     pub casters: usize,
     /// Triangles of each caster, nearly. Range: 8 to [`MAX_TRIANGLES`](Self::MAX_TRIANGLES). Default: 1000.
     pub triangles_per_caster: usize,
@@ -64,6 +64,12 @@ impl StressOptions {
     /// Most triangles of a caster.
     pub const MAX_TRIANGLES: usize = 4 << 20;
 
+    /// Most lights.
+    pub const MAX_LIGHTS: usize = 1024;
+
+    /// Most casters.
+    pub const MAX_CASTERS: usize = 1 << 16;
+
     /// # Errors
     ///
     /// A number is out of its range.
@@ -71,6 +77,12 @@ impl StressOptions {
         let range = Self::MIN_TRIANGLES..=Self::MAX_TRIANGLES;
         if !range.contains(&self.triangles_per_caster) {
             return Err(StressError::Triangles { triangles: self.triangles_per_caster });
+        }
+        let counts = [("lights", self.lights, Self::MAX_LIGHTS), ("casters", self.casters, Self::MAX_CASTERS)];
+        for (what, count, most) in counts {
+            if count > most {
+                return Err(StressError::TooMany { what, count, most });
+            }
         }
         Ok(())
     }

@@ -42,7 +42,7 @@ pub struct Summary {
     pub dispatches_recorded: u32,
     /// Stages and passes of the last frames, of all views together. Empty where the device has no timestamps.
     pub stages: Vec<StageTime>,
-    /// Faces of the casters that cast, over all views of the last frame that was counted.
+    /// Faces of the casters that cast, at most, since blocks count whole: over all views of the last frame that was counted.
     pub faces_tested: u64,
     /// Edges of the same, at most.
     pub edges_tested: u64,

@@ -53,15 +53,21 @@ impl<'a> Verifier<'a> {
         let left = draw_again(gpu, placed)?;
         let places: Vec<_> = self.world.casters(frame).collect();
         let lights: Vec<_> = self.world.lights(frame).collect();
-        for left in &left {
-            let index = placed.lights.iter().position(|light| *light == left.light).unwrap_or(0);
-            let settings = self.world.settings();
-            let views = views_with_guard(&lights[index], guard_ndc(&lights[index], settings));
-            let view = views.map_err(contrejour_gpu::ShadowLightError::from)?[left.view];
-            let what = format!("frame {frame}, light {index}, view {}", left.view);
-            self.check_view(gpu, left, &view, &places, &deformed, &what)?;
+        for (index, (handle, light)) in placed.lights.iter().zip(&lights).enumerate() {
+            let views = views_with_guard(light, guard_ndc(light, self.world.settings()));
+            let views = views.map_err(contrejour_gpu::ShadowLightError::from)?;
+            let of_light: Vec<_> = left.iter().filter(|left| left.light == *handle).collect();
+            let are_drawn = of_light.iter().map(|left| left.view).eq(0..views.len());
+            if !are_drawn && !places.is_empty() {
+                self.differ(&format!("frame {frame}, light {index}: of its {} views others are drawn", views.len()));
+                continue;
+            }
+            for (left, view) in of_light.iter().zip(&views) {
+                let what = format!("frame {frame}, light {index}, view {}", left.view);
+                self.check_view(gpu, left, view, &places, &deformed, &what)?;
+            }
+            self.light_frames += u64::from(are_drawn);
         }
-        self.light_frames += lights.len() as u64;
         Ok(())
     }
 
@@ -84,9 +90,13 @@ impl<'a> Verifier<'a> {
         let mesh = &*self.world.mesh;
         let near_one = NearOne::of_box(mesh.bounds_min, mesh.bounds_max);
         let reach_ndc = view.reach_ndc(self.world.settings());
+        let mut casting = 0;
         for (index, place) in places.iter().enumerate() {
             let expected = caster_light(view, place, &near_one);
             let found = &caster_lights[index];
+            if found.casts != 0 && expected.casts == 0 {
+                self.differ(&format!("{what}: caster {index} casts, and can't"));
+            }
             if found.casts == 0 {
                 let shrunk = [mesh.bounds_min, mesh.bounds_max].map(|corner| corner.map(|x| x * CERTAINLY as f32));
                 let bounds = ObjectBox { min: shrunk[0], max: shrunk[1], world_from_object: *place };
@@ -102,11 +112,15 @@ impl<'a> Verifier<'a> {
             }
             if !left.pages.is_empty() {
                 let oracle = self.world.flexible_index(index).map_or(&self.rigid, |index| &deformed[index]);
+                casting += silhouettes.iter().filter(|edge| edge.caster as usize == index).count();
                 let is_same = self.has_silhouette(oracle, &expected, index, &silhouettes);
                 if !is_same {
                     self.differ(&format!("{what}: caster {index} has another silhouette"));
                 }
             }
+        }
+        if casting != silhouettes.len() {
+            self.differ(&format!("{what}: {} edges are of casters that don't cast", silhouettes.len() - casting));
         }
         Ok(())
     }
