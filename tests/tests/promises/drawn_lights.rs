@@ -73,6 +73,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("drawn_lights::what_moves_is_drawn_where_it_is", |_| what_moves_is_drawn_where_it_is()),
         gpu_trial("drawn_lights::a_frame_uploads_what_moved", |_| a_frame_uploads_what_moved()),
         gpu_trial("drawn_lights::a_picture_of_the_callers_is_the_same", |_| a_picture_of_the_callers_is_the_same()),
+        gpu_trial("drawn_lights::rims_show_no_shadow_of_rounding", |_| rims_show_no_shadow_of_rounding()),
         gpu_trial("drawn_lights::each_light_has_its_views", |_| each_light_has_its_views()),
     ]
 }
@@ -285,4 +286,34 @@ fn each_light_has_its_views() -> Outcome {
         Ok(()) => Err("two lights are seen from the same places".into()),
         Err(_) => Ok(()),
     }
+}
+
+/// A column in the sun, seen along one ray by a camera whose target is near or ten times as far. Its surface is where it
+/// is: only the space in which numbers are small differs, and where positions beside the surface would lie.
+fn rims_show_no_shadow_of_rounding() -> Outcome {
+    let picture = |target: &str| -> Result<RgbaImage, String> {
+        let text = format!(
+            r#"
+size = [320, 180]
+[camera]
+eye = [-5, 2.5, -20]
+target = {target}
+fov_y_degrees = 52
+near = 0.2
+far = 90
+[light]
+kind = "directional"
+towards_light = [0.55, 0.62, 0.42]
+[[mesh]]
+shape = {{ kind = "cylinder", radius = 0.26, height = 4.4, segments = 48 }}
+translate = [-3, 2.201, -24]
+"#
+        );
+        picture(&Scene::from_toml(&text, Path::new(""), "column").map_err(|error| error.to_string())?)
+    };
+    let [near, far] = ["[-2.756, 2.2, -24.08]", "[17.44, -0.5, -60.8]"].map(picture);
+    let (near, far) = (near?, far?);
+    let darker = |(one, other): (&image::Rgba<u8>, &image::Rgba<u8>)| one[0].abs_diff(other[0]) > 24;
+    let changed = near.pixels().zip(far.pixels()).filter(|&pixels| darker(pixels)).count();
+    if changed <= 4 { Ok(()) } else { Err(format!("{changed} pixels differ")) }
 }
