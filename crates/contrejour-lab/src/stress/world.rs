@@ -29,6 +29,14 @@ pub(super) struct World {
     room: f64,
 }
 
+/// Where everything is in a frame, as a program's own simulation would say it.
+#[derive(Debug)]
+pub(super) struct Moment {
+    casters: Vec<DMat4>,
+    poses: Vec<PartPose>,
+    lights: Vec<Light>,
+}
+
 /// A world on a device.
 #[derive(Debug)]
 pub(super) struct Placed {
@@ -71,7 +79,7 @@ impl World {
     }
 
     /// The frame in whose places things are.
-    fn moment(&self, frame: u64) -> u64 {
+    fn path_frame(&self, frame: u64) -> u64 {
         match self.options.motion {
             Motion::Walking => frame,
             Motion::Still => 0,
@@ -80,7 +88,7 @@ impl World {
 
     /// World space from each caster's object space in a frame.
     pub fn casters(&self, frame: u64) -> impl Iterator<Item = DMat4> {
-        let moment = self.moment(frame);
+        let moment = self.path_frame(frame);
         self.casters.iter().map(move |path| path.matrix(moment))
     }
 
@@ -92,7 +100,7 @@ impl World {
 
     /// The poses of all casters, in their order.
     pub fn part_poses(&self, frame: u64) -> Vec<PartPose> {
-        let moment = self.moment(frame);
+        let moment = self.path_frame(frame);
         let pose = |(index, path): (usize, &Path)| {
             let pose = match self.flexible_index(index) {
                 Some(_) => self.flexible.pose(path.swing(moment)),
@@ -105,9 +113,18 @@ impl World {
 
     /// The lights in a frame.
     pub fn lights(&self, frame: u64) -> impl Iterator<Item = Light> {
-        let moment = self.moment(frame);
+        let moment = self.path_frame(frame);
         let light = move |(index, path): (usize, &Path)| self.options.kind.light(index, path.place(moment), self.room);
         self.lights.iter().enumerate().map(light)
+    }
+
+    /// Where everything is in a frame.
+    pub fn moment(&self, frame: u64) -> Moment {
+        Moment {
+            casters: self.casters(frame).collect(),
+            poses: self.poses(frame),
+            lights: self.lights(frame).collect(),
+        }
     }
 
     pub fn caster_count(&self) -> usize {
@@ -161,14 +178,13 @@ impl World {
 
 impl Placed {
     /// Moves everything to where it is in a frame.
-    pub fn walk(&mut self, gpu: &Gpu, world: &World, frame: u64) -> Result<(), StressError> {
-        let poses = world.poses(frame);
-        self.deformer.prepare(&gpu.device, &gpu.queue, &inputs(&self.flexible, &poses))?;
-        for (caster, place) in self.casters.iter().zip(world.casters(frame)) {
-            self.shadows.place_caster(*caster, &place)?;
+    pub fn walk(&mut self, gpu: &Gpu, moment: &Moment) -> Result<(), StressError> {
+        self.deformer.prepare(&gpu.device, &gpu.queue, &inputs(&self.flexible, &moment.poses))?;
+        for (caster, place) in self.casters.iter().zip(&moment.casters) {
+            self.shadows.place_caster(*caster, place)?;
         }
-        for (handle, light) in self.lights.iter().zip(world.lights(frame)) {
-            self.shadows.set_light(*handle, &light)?;
+        for (handle, light) in self.lights.iter().zip(&moment.lights) {
+            self.shadows.set_light(*handle, light)?;
         }
         Ok(())
     }
