@@ -74,6 +74,8 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
         let stats = placed.shadows.stats();
         summary.lights_redone += u64::from(stats.lights_redone);
         summary.lights_kept += u64::from(stats.lights_kept);
+        summary.draws_recorded = stats.draws_recorded;
+        summary.dispatches_recorded = stats.dispatches_recorded;
         summary.upload_bytes_per_frame = stats.upload_bytes + placed.deformer.upload_bytes();
         if options.verify && (frame == 1 || random.u64(..VERIFIED_OF) == 0) {
             gpu.wait(None)?;

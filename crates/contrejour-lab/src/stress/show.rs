@@ -104,6 +104,8 @@ impl Show {
         let stats = self.renderer.shadows().stats();
         self.summary.lights_redone += u64::from(stats.lights_redone);
         self.summary.lights_kept += u64::from(stats.lights_kept);
+        self.summary.draws_recorded = stats.draws_recorded;
+        self.summary.dispatches_recorded = stats.dispatches_recorded;
         self.watch.end_frame();
         Ok(ms())
     }

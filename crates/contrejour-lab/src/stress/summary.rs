@@ -73,10 +73,7 @@ impl Summary {
     /// Adds what the last frame left.
     pub(super) fn count(&mut self, shadows: &Shadows, lights: impl Iterator<Item = LightHandle>) {
         let lights: Vec<_> = lights.collect();
-        let stats = shadows.stats();
-        let counters = stats.counters.unwrap_or_default();
-        self.draws_recorded = stats.draws_recorded;
-        self.dispatches_recorded = stats.dispatches_recorded;
+        let counters = shadows.stats().counters.unwrap_or_default();
         self.faces_tested = u64::from(counters.face_items) * u64::from(BLOCK_SIZE);
         self.edges_tested = u64::from(counters.edge_items) * u64::from(BLOCK_SIZE);
         self.silhouette_edges = counters.silhouette_edges.into();
