@@ -1,6 +1,6 @@
 //! Preparing a frame: what is needed is made, what changed is uploaded.
 
-use contrejour_plan::{BufferKind, FramePlan, PlanError, SceneFacts};
+use contrejour_plan::{BufferKind, FramePlan, PlanError, SceneFacts, shared_plans};
 
 use crate::device_watch::OpenScopes;
 use crate::error::{DeviceError, PrepareError};
@@ -15,9 +15,9 @@ impl Shadows {
     ///
     /// # Errors
     ///
-    /// A cascaded light has no eye, or the plans list more than the device allows; then nothing has changed, and the next prepare tries again. Where the
-    /// device itself fails ([`PrepareError::Device`]), what was made is dropped, and the next prepare makes all of it
-    /// again; until then there are no maps, as before the first.
+    /// A cascaded light has no eye, or the plans list more than the device allows; then nothing has changed, and the next
+    /// prepare tries again. Where the device itself fails ([`PrepareError::Device`]), what was made is dropped, and the next
+    /// prepare makes all of it again; until then there are no maps, as before the first.
     pub fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), PrepareError> {
         self.watch.check(device)?;
         let late = self.watch.late();
@@ -36,7 +36,7 @@ impl Shadows {
         Ok(())
     }
 
-    /// The plans of all lights, in their order. Since they share pages and lists, what one needs shapes all.
+    /// The plans of all lights, in their order.
     fn plans(&self) -> Result<Vec<FramePlan>, PlanError> {
         let scene = SceneFacts {
             meshes: self.meshes.facts().to_vec(),
@@ -50,14 +50,7 @@ impl Shadows {
             };
             self.lights.iter().map(plan).collect()
         };
-        let alone = plans(&[])?;
-        let mut shared: Vec<_> = alone.iter().flat_map(|plan| &plan.buffers).map(|buffer| buffer.kind).collect();
-        shared.retain(|kind| !kind.is_of_light());
-        shared.sort_unstable();
-        shared.dedup();
-        // Lights that need the same need no second thought.
-        let is_alike = |plan: &FramePlan| shared.iter().all(|kind| plan.buffer(*kind).is_some());
-        if alone.iter().all(is_alike) { Ok(alone) } else { plans(&shared) }
+        shared_plans(plans)
     }
 
     /// Makes and fills what the plans list.

@@ -1,11 +1,9 @@
 //! What a frame of a scene does, known before there is a device.
 
-use std::collections::BTreeSet;
-
 use contrejour_gpu::{mesh_facts, mesh_pieces};
 use contrejour_plan::{
     BufferKind, Capacity, CascadeError, CasterFacts, DeviceFacts, FramePlan, ObjectBox, Outputs, PlanError, PlanInput,
-    SceneFacts, frame_views,
+    SceneFacts, frame_views, shared_plans,
 };
 use contrejour_scene::{Scene, SceneLight};
 
@@ -45,24 +43,15 @@ pub fn frame_plans(scene: &Scene, device: &DeviceFacts) -> Result<Vec<LightPlan>
     let local = LocalSpace::around(&scene.camera);
     let facts = scene_facts(scene, &local, device)?;
     let eye = local.camera(&scene.camera).as_eye(scene.aspect());
-    let plans = |shared: &[BufferKind]| -> Result<Vec<LightPlan>, FramePlanError> {
-        let casting = scene.lights.iter().enumerate().filter(|(_, light)| light.casts);
-        let plan_of = |(index, light): (usize, &SceneLight)| {
-            let light_local = local.light(&light.light);
-            let views = frame_views(&light_local, Some(&eye), &light.shadow)?.views;
-            let (outputs, capacity) = (Outputs::Maps, Capacity::default());
-            let settings = &light.shadow;
-            let input = PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared };
-            Ok(LightPlan { light: index, plan: FramePlan::new(&input)? })
-        };
-        casting.map(plan_of).collect()
+    let casting = || scene.lights.iter().enumerate().filter(|(_, light)| light.casts);
+    let plan_of = |light: &SceneLight, shared: &[BufferKind]| -> Result<FramePlan, FramePlanError> {
+        let views = frame_views(&local.light(&light.light), Some(&eye), &light.shadow)?.views;
+        let (outputs, capacity) = (Outputs::Maps, Capacity::default());
+        let settings = &light.shadow;
+        Ok(FramePlan::new(&PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared })?)
     };
-    // Where lights are made in different ways, all of them share what any of them needs.
-    let alone = plans(&[])?;
-    let kinds = alone.iter().flat_map(|light| &light.plan.buffers).map(|buffer| buffer.kind);
-    let shared: BTreeSet<BufferKind> = kinds.filter(|kind| !kind.is_of_light()).collect();
-    let is_alike = |light: &LightPlan| shared.iter().all(|kind| light.plan.buffer(*kind).is_some());
-    if alone.iter().all(is_alike) { Ok(alone) } else { plans(&shared.into_iter().collect::<Vec<_>>()) }
+    let plans = shared_plans(|shared| casting().map(|(_, light)| plan_of(light, shared)).collect())?;
+    Ok(casting().zip(plans).map(|((light, _), plan)| LightPlan { light, plan }).collect())
 }
 
 fn scene_facts(scene: &Scene, local: &LocalSpace, device: &DeviceFacts) -> Result<SceneFacts, CasterTopologyError> {
