@@ -12,6 +12,7 @@ mod casters;
 mod error;
 mod frame_plan;
 mod frame_uniforms;
+mod full_screen;
 mod gpu;
 mod judge;
 mod light_targets;
@@ -52,7 +53,7 @@ pub use judge::{
 pub use local_space::LocalSpace;
 pub use measurements::{Measurements, Spread, StageCost};
 pub use png::save_png;
-pub use readback::{ReadError, read_buffer, read_rows, read_texture};
+pub use readback::{ReadError, copied_buffer, read_buffer, read_rows, read_texture};
 pub use renderer::Renderer;
 pub use save::{SaveError, check_folder, save_file};
 pub use scene_lights::MoveError;

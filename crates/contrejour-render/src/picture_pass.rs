@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use wgpu::{TextureFormat, TextureSampleType};
 
 use crate::Gpu;
+use crate::full_screen::full_screen_pipeline;
 use crate::light_targets::LightTargets;
+use crate::scene_pipeline::EntryPoints;
 use crate::shaders::PICTURE;
 
 /// Pipelines, one for each format of a picture, and what they bind.
@@ -100,34 +102,15 @@ fn bind(gpu: &Gpu, layout: &wgpu::BindGroupLayout, targets: &LightTargets) -> wg
 fn pipeline(
     gpu: &Gpu,
     (layout, module): (&wgpu::PipelineLayout, &wgpu::ShaderModule),
-    entry_point: &str,
+    entry_point: &'static str,
     format: TextureFormat,
 ) -> wgpu::RenderPipeline {
     let constants = [
         ("encodes_srgb", f64::from(u8::from(takes_shown_numbers(format)))),
         ("sample_count", f64::from(gpu.sample_count)),
     ];
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("picture"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex_picture"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-            targets: &[Some(format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let entry_points = EntryPoints { vertex: "vertex_picture", fragment: entry_point };
+    full_screen_pipeline(gpu, (layout, module), entry_points, &constants, format)
 }
 
 /// Whether numbers in a texture of this format are shown as they are: neither the format makes them sRGB, nor are they

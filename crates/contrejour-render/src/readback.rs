@@ -18,6 +18,18 @@ pub enum ReadError {
     Range(#[from] wgpu::MapRangeError),
 }
 
+/// Records a copy of a buffer, to be read when the commands have run: for lists that later commands fill anew.
+pub fn copied_buffer(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) -> wgpu::Buffer {
+    let copy = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("copied list"),
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    });
+    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+    copy
+}
+
 /// Reads the first `size` bytes of a buffer.
 ///
 /// # Errors

@@ -9,7 +9,7 @@ use image::RgbaImage;
 use crate::error::DrawError;
 use crate::map_texels::read_texels;
 use crate::map_views::{MapView, alpha_view, depth_view};
-use crate::readback::{ReadError, read_picture};
+use crate::readback::{ReadError, copied_buffer, read_picture};
 use crate::renderer::Renderer;
 use crate::silhouette_lines::SilhouetteLines;
 use crate::silhouettes::read_pages;
@@ -167,7 +167,7 @@ impl Renderer {
         cast.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
             if looking.contains(&view.light) {
                 let mut copied = |kind| -> Vec<wgpu::Buffer> {
-                    view.buffers(kind).map(|buffer| copy_of(gpu, encoder, buffer)).collect()
+                    view.buffers(kind).map(|buffer| copied_buffer(gpu, encoder, buffer)).collect()
                 };
                 copies.push((view.light, copied(BufferKind::Counters), copied(BufferKind::Silhouettes)));
             }
@@ -178,15 +178,4 @@ impl Renderer {
         };
         copies.iter().map(read).collect()
     }
-}
-
-fn copy_of(gpu: &crate::Gpu, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) -> wgpu::Buffer {
-    let copy = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("copied list"),
-        size: buffer.size(),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    });
-    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
-    copy
 }

@@ -9,7 +9,7 @@ use contrejour_gpu::{CasterInput, LightHandle, Positions, ShadowOptions, Shadows
 use contrejour_layout::{CasterLight, Corner, Counters, LightView, Quad, ReceiverView, SilhouetteEdge};
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError};
 use contrejour_plan::{BufferKind, FramePlan, Light, ShadowSettings};
-use contrejour_render::{Gpu, read_buffer, read_rows};
+use contrejour_render::{Gpu, copied_buffer, read_buffer, read_rows};
 use glam::DMat4;
 use half::f16;
 
@@ -157,14 +157,7 @@ impl<'a> DeviceFrame<'a> {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut views = Vec::new();
         self.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
-            let mut copy = |buffer: &wgpu::Buffer| {
-                let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
-                let size = buffer.size();
-                let descriptor = wgpu::BufferDescriptor { label: Some("view"), size, usage, mapped_at_creation: false };
-                let copied = device.create_buffer(&descriptor);
-                encoder.copy_buffer_to_buffer(buffer, 0, &copied, 0, size);
-                copied
-            };
+            let mut copy = |buffer| copied_buffer(self.gpu, encoder, buffer);
             views.push(READ.into_iter().map(|kind| (kind, view.buffers(kind).map(&mut copy).collect())).collect());
         });
         queue.submit([encoder.finish()]);

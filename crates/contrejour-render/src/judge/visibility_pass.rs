@@ -5,6 +5,8 @@ use contrejour_gpu::{LightHandle, PassTimer, ViewChoice, VisibilityKind};
 use super::receiver_pass::ReceiverTarget;
 use crate::Gpu;
 use crate::casters::CastShadows;
+use crate::full_screen::full_screen_pipeline;
+use crate::scene_pipeline::EntryPoints;
 use crate::shaders::JUDGED_VISIBILITY;
 
 /// Format of visibility, 0 dark to 1 lit.
@@ -38,27 +40,8 @@ impl VisibilityPass {
             bind_group_layouts: &[Some(&receivers.layout), Some(shadows.visibility_layout(light))],
             immediate_size: 0,
         });
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("judged visibility"),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vertex_judged_visibility"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fragment_judged_visibility"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(VISIBILITY_FORMAT.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+        let entry_points = EntryPoints { vertex: "vertex_judged_visibility", fragment: "fragment_judged_visibility" };
+        let pipeline = full_screen_pipeline(gpu, (&layout, &module), entry_points, &[], VISIBILITY_FORMAT);
         Self { kind: cast.kind_of(light), light, pipeline }
     }
 
