@@ -1,6 +1,6 @@
 //! The frames that the stages are compared on, and one stage on the device.
 
-use contrejour_plan::{CubeFace, Light, ShadowSettings, View, guard_ndc, views_with_guard};
+use contrejour_plan::{CubeFace, Light, ShadowSettings, View, frame_views};
 use contrejour_tests::chain::wgsl_of;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
@@ -73,8 +73,7 @@ fn for_each_case_of(meshes: &[TestMesh], stage: &str, mut check: impl FnMut(&Cas
 }
 
 fn of_light(light: &Light) -> Vec<View> {
-    let guard = guard_ndc(light, &ShadowSettings::default());
-    views_with_guard(light, guard).expect("the lights of the tests are good")
+    frame_views(light, None, &ShadowSettings::default()).expect("the lights of the tests are good").views
 }
 
 fn meshes() -> Vec<TestMesh> {

@@ -2,7 +2,6 @@
 
 use contrejour_gpu::{AddMeshError, CasterError, CountersError, NewShadowsError, PrepareError, ShadowLightError};
 use contrejour_mesh::TopologyError;
-use contrejour_plan::LightError;
 use contrejour_render::{DeviceFault, ReadError};
 
 use super::family::UnknownFamily;
@@ -72,8 +71,6 @@ pub(super) enum Refusal {
     NewShadows(#[from] NewShadowsError),
     #[error(transparent)]
     AddMesh(#[from] AddMeshError),
-    #[error(transparent)]
-    Light(#[from] LightError),
     #[error(transparent)]
     AddCaster(#[from] CasterError),
     #[error(transparent)]

@@ -2,7 +2,7 @@
 
 use contrejour_plan::{Light, LightKind};
 #[cfg(test)]
-use contrejour_plan::{ShadowSettings, View, guard_ndc, views_with_guard};
+use contrejour_plan::{ShadowSettings, View, frame_views};
 use glam::DVec3;
 
 /// Where lights stand, as seen from the middle: off every axis and plane that meshes are built along.
@@ -51,8 +51,7 @@ pub(super) fn both(middle: DVec3, radius: f64) -> [(&'static str, Light); 2] {
 #[cfg(test)]
 pub(super) fn views_of_all_kinds(middle: DVec3, radius: f64) -> Vec<(&'static str, View)> {
     let view = |light: Light, view: usize| {
-        let guard = guard_ndc(&light, &ShadowSettings::default());
-        views_with_guard(&light, guard).expect("a good light")[view]
+        frame_views(&light, None, &ShadowSettings::default()).expect("a good light").views[view]
     };
     let kind = LightKind::Point {
         position: middle + 2.0 * radius * ASIDE.normalize(),

@@ -3,7 +3,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use contrejour_plan::{Omitted, Reason, View, guard_ndc, object_light, views_with_guard};
+use contrejour_gpu::ShadowLightError;
+use contrejour_plan::{Omitted, Reason, View, frame_views, object_light};
 use contrejour_render::Gpu;
 
 use super::case::Case;
@@ -39,8 +40,8 @@ pub(super) fn measure(gpu: &Gpu, family: &Family, case: &Case) -> Result<Row, Ca
 
 fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
     let meshes = case.meshes.iter().map(DeviceMesh::new).collect::<Result<Vec<_>, _>>().map_err(Refusal::from)?;
-    let guard = guard_ndc(&case.light, &case.settings);
-    let views = views_with_guard(&case.light, guard).map_err(Refusal::from)?;
+    let seen = frame_views(&case.light, None, &case.settings).map_err(ShadowLightError::from);
+    let views = seen.map_err(Refusal::from)?.views;
     let mut device = DeviceFrame::new(gpu, &meshes, &case.light, &case.settings)?;
     device.complete(&case.light)?;
     row.time_ms = device.time_ms(&case.light)?;

@@ -112,7 +112,7 @@ fn blockers(meshes: &[DeviceMesh], frame: &MirrorFrame) -> Vec<[DVec2; 3]> {
 
 #[cfg(test)]
 mod tests {
-    use contrejour_plan::{CubeFace, guard_ndc, views_with_guard};
+    use contrejour_plan::{CubeFace, frame_views};
     use glam::DMat4;
 
     use super::*;
@@ -134,7 +134,7 @@ mod tests {
     fn the_outputs_of_another_view_and_a_lost_edge_are_found() {
         let case = a_lamp_amid_a_ring();
         let meshes = [DeviceMesh::new(&case.meshes[0]).expect("a good mesh")];
-        let views = views_with_guard(&case.light, guard_ndc(&case.light, &case.settings)).expect("a good lamp");
+        let views = frame_views(&case.light, None, &case.settings).expect("a good lamp").views;
         let frames: Vec<_> = (views.iter())
             .map(|view| MirrorFrame::of_view(&[(&*meshes[0].topology, DMat4::IDENTITY)], view, &case.settings))
             .collect();

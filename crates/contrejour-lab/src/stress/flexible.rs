@@ -30,11 +30,11 @@ impl Flexible {
         Ok(Self { deforming: Arc::new(deforming), topology: Arc::new(topology) })
     }
 
-    /// The pose at an angle of its swing.
-    pub fn pose(&self, angle: f64) -> PartPose {
+    /// The pose at a place and an angle of its swing.
+    pub fn pose(&self, world_from_object: DMat4, angle: f64) -> PartPose {
         let bend = |turn: f64| DMat4::from_rotation_z(turn) * DMat4::from_translation(DVec3::Y * (0.1 * turn));
         PartPose {
-            world_from_object: DMat4::IDENTITY,
+            world_from_object,
             joint_matrices: vec![bend(-0.5 * angle.sin()), bend(0.7 * (1.3 * angle).sin())],
             morph_weights: vec![0.5 + 0.5 * angle.cos()],
         }

@@ -62,9 +62,8 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
     let mut verifier = Verifier::new(&world);
     let mut submissions = VecDeque::new();
     let mut watch = Stopwatch::start(options.duration);
-    let mut frame = 0;
-    while frame == 0 || !watch.is_over() {
-        frame += 1;
+    while summary.frames == 0 || !watch.is_over() {
+        let frame = summary.frames + 1;
         watch.begin_frame();
         submissions.push_back(draw(gpu, &world, &mut placed, frame, &mut costs)?);
         while submissions.len() > gpu.frames_in_flight() {
@@ -72,10 +71,7 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
         }
         watch.end_frame();
         let stats = placed.shadows.stats();
-        summary.lights_redone += u64::from(stats.lights_redone);
-        summary.lights_kept += u64::from(stats.lights_kept);
-        summary.draws_recorded = stats.draws_recorded;
-        summary.dispatches_recorded = stats.dispatches_recorded;
+        summary.add_frame(&stats);
         summary.upload_bytes_per_frame = stats.upload_bytes + placed.deformer.upload_bytes();
         if options.verify && (frame == 1 || random.u64(..VERIFIED_OF) == 0) {
             gpu.wait(None)?;
@@ -92,10 +88,9 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
     watch.tell(&mut summary);
     summary.overflow_frames = placed.shadows.stats().overflow_frames - overflows_before;
     summary.count(&placed.shadows, placed.lights.iter().copied());
-    summary.stages = stages(gpu, &world, &mut placed, frame)?;
+    summary.stages = stages(gpu, &world, &mut placed, summary.frames)?;
     gpu.check()?;
 
-    summary.frames = frame;
     summary.cpu_ms_per_frame = median(costs.cpu);
     summary.cpu_upload_ms = median(costs.upload);
     summary.cpu_record_ms = median(costs.record);

@@ -88,8 +88,7 @@ impl Show {
     /// The device does not allow the frame, or fails.
     pub fn draw_into(&mut self, view: &wgpu::TextureView, format: wgpu::TextureFormat) -> Result<f64, StressError> {
         self.watch.begin_frame();
-        self.summary.frames += 1;
-        let frame = self.summary.frames;
+        let frame = self.summary.frames + 1;
         let count = self.scene.lights.len();
         let lights = self.world.lights(frame).enumerate().map(|(index, light)| shown(light, index, count));
         let (poses, lights) = (self.world.part_poses(frame), lights.collect::<Vec<_>>());
@@ -101,11 +100,7 @@ impl Show {
         }
         self.placing.push(ms());
         self.renderer.draw_into(view, format)?;
-        let stats = self.renderer.shadows().stats();
-        self.summary.lights_redone += u64::from(stats.lights_redone);
-        self.summary.lights_kept += u64::from(stats.lights_kept);
-        self.summary.draws_recorded = stats.draws_recorded;
-        self.summary.dispatches_recorded = stats.dispatches_recorded;
+        self.summary.add_frame(&self.renderer.shadows().stats());
         self.watch.end_frame();
         Ok(ms())
     }

@@ -1,6 +1,6 @@
 //! What a run came to.
 
-use contrejour_gpu::{LightHandle, Shadows};
+use contrejour_gpu::{FrameStats, LightHandle, Shadows};
 use contrejour_layout::BLOCK_SIZE;
 use contrejour_plan::FramePlan;
 use serde::Serialize;
@@ -70,6 +70,15 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Adds a frame.
+    pub(super) fn add_frame(&mut self, stats: &FrameStats) {
+        self.frames += 1;
+        self.lights_redone += u64::from(stats.lights_redone);
+        self.lights_kept += u64::from(stats.lights_kept);
+        self.draws_recorded = stats.draws_recorded;
+        self.dispatches_recorded = stats.dispatches_recorded;
+    }
+
     /// Adds what the last frame left.
     pub(super) fn count(&mut self, shadows: &Shadows, lights: impl Iterator<Item = LightHandle>) {
         let lights: Vec<_> = lights.collect();

@@ -1,10 +1,10 @@
 //! Frames against exact arithmetic, and against frames drawn from scratch.
 
-use contrejour_gpu::{LightHandle, Positions, Shadows, Untimed};
+use contrejour_gpu::{LightHandle, Positions, ShadowLightError, Shadows, Untimed};
 use contrejour_layout::{CasterLight, Counters, SilhouetteEdge};
 use contrejour_oracle::{ManyLights, OracleEdge, OracleTopology};
-use contrejour_plan::{BufferKind, NearOne, ObjectBox, Stage, View, caster_light, guard_ndc, views_with_guard};
-use contrejour_render::{Gpu, read_buffer, read_rows};
+use contrejour_plan::{BufferKind, NearOne, ObjectBox, Stage, View, caster_light, frame_views};
+use contrejour_render::{Gpu, copied_buffer, read_buffer, read_rows};
 use glam::{DMat4, DVec3};
 
 use super::error::StressError;
@@ -54,8 +54,7 @@ impl<'a> Verifier<'a> {
         let places: Vec<_> = self.world.casters(frame).collect();
         let lights: Vec<_> = self.world.lights(frame).collect();
         for (index, (handle, light)) in placed.lights.iter().zip(&lights).enumerate() {
-            let views = views_with_guard(light, guard_ndc(light, self.world.settings()));
-            let views = views.map_err(contrejour_gpu::ShadowLightError::from)?;
+            let views = frame_views(light, None, self.world.settings()).map_err(ShadowLightError::from)?.views;
             let of_light: Vec<_> = left.iter().filter(|left| left.light == *handle).collect();
             let are_drawn = of_light.iter().map(|left| left.view).eq(0..views.len());
             if !are_drawn && !places.is_empty() {
@@ -152,7 +151,7 @@ impl<'a> Verifier<'a> {
     /// wrong pose would verify itself.
     fn deformed(&mut self, gpu: &Gpu, placed: &Placed, frame: u64) -> Result<Vec<ManyLights>, StressError> {
         let mut deformed = Vec::new();
-        for (positions, pose) in placed.flexible_positions().zip(self.world.poses(frame)) {
+        for (positions, pose) in placed.flexible_positions().zip(self.world.flexible_poses(frame)) {
             let Positions::InBuffer { buffer, offset, .. } = positions else { continue };
             let expected = self.world.flexible.deforming.posed(&pose);
             let size = size_of::<[f32; 3]>() as u64 * expected.len() as u64;
@@ -200,16 +199,7 @@ fn draw_again(gpu: &Gpu, placed: &mut Placed) -> Result<Vec<Left>, StressError> 
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("verified") });
     deformer.encode(&mut encoder, &mut Untimed);
     shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
-        let mut copy = |buffer: &wgpu::Buffer| {
-            let copied = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("verified"),
-                size: buffer.size(),
-                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
-                mapped_at_creation: false,
-            });
-            encoder.copy_buffer_to_buffer(buffer, 0, &copied, 0, buffer.size());
-            copied
-        };
+        let mut copy = |buffer| copied_buffer(gpu, encoder, buffer);
         let Some(caster_lights) = view.buffers(BufferKind::CasterLights).next() else { return };
         let pages = view.buffers(BufferKind::Counters).zip(view.buffers(BufferKind::Silhouettes));
         left.push(Left {

@@ -92,23 +92,23 @@ impl World {
         self.casters.iter().map(move |path| path.matrix(moment))
     }
 
-    /// The poses of the casters that deform, in their order.
-    pub fn poses(&self, frame: u64) -> Vec<PartPose> {
-        let flexible = self.casters.iter().enumerate().filter(|(index, _)| self.flexible_index(*index).is_some());
-        flexible.map(|(_, path)| self.flexible.pose(path.swing(frame))).collect()
-    }
-
     /// The poses of all casters, in their order.
     pub fn part_poses(&self, frame: u64) -> Vec<PartPose> {
         let moment = self.path_frame(frame);
         let pose = |(index, path): (usize, &Path)| {
-            let pose = match self.flexible_index(index) {
-                Some(_) => self.flexible.pose(path.swing(moment)),
-                None => PartPose { world_from_object: DMat4::IDENTITY, joint_matrices: vec![], morph_weights: vec![] },
-            };
-            PartPose { world_from_object: path.matrix(moment), ..pose }
+            let world_from_object = path.matrix(moment);
+            match self.flexible_index(index) {
+                Some(_) => self.flexible.pose(world_from_object, path.swing(moment)),
+                None => PartPose { world_from_object, joint_matrices: Vec::new(), morph_weights: Vec::new() },
+            }
         };
         self.casters.iter().enumerate().map(pose).collect()
+    }
+
+    /// The poses of the casters that deform, in their order.
+    pub fn flexible_poses(&self, frame: u64) -> Vec<PartPose> {
+        let poses = self.part_poses(frame).into_iter().enumerate();
+        poses.filter(|(index, _)| self.flexible_index(*index).is_some()).map(|(_, pose)| pose).collect()
     }
 
     /// The lights in a frame.
@@ -122,7 +122,7 @@ impl World {
     pub fn moment(&self, frame: u64) -> Moment {
         Moment {
             casters: self.casters(frame).collect(),
-            poses: self.poses(frame),
+            poses: self.flexible_poses(frame),
             lights: self.lights(frame).collect(),
         }
     }
@@ -154,7 +154,7 @@ impl World {
     /// The world as it is in a frame.
     pub fn place(&self, gpu: &Gpu, frame: u64) -> Result<Placed, StressError> {
         let mut deformer = Deformer::new(&gpu.device)?;
-        let poses = self.poses(frame);
+        let poses = self.flexible_poses(frame);
         let flexible = poses.iter().map(|_| deformer.add(Arc::clone(&self.flexible.deforming)));
         let flexible = flexible.collect::<Result<Vec<_>, _>>()?;
         deformer.prepare(&gpu.device, &gpu.queue, &inputs(&flexible, &poses))?;
