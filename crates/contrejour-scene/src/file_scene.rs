@@ -7,13 +7,11 @@ use contrejour_plan::{Light, LightKind, ShadowSettings};
 use glam::DVec3;
 
 use crate::framing::{camera_depths, depths_all_around, frame_within, light_depths, sun_extents, with_some_size};
+use crate::scene_light::SUN_ANGULAR_RADIUS_DEGREES;
 use crate::{Bounds, Camera, Scene, SceneLight, SceneMesh};
 
 /// The widest cone that a shadow map can show.
 const WIDEST_CONE_DEGREES: f64 = 179.0;
-
-/// The sun's, as of a directional light in a scene file.
-const SUN_ANGULAR_RADIUS_DEGREES: f64 = 0.27;
 
 /// A mesh file has no camera of a name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -36,6 +36,9 @@ pub struct SceneLight {
     pub shadow: ShadowSettings,
 }
 
+/// Angular radius of a directional light of which nobody says how large it is: the sun's.
+pub(crate) const SUN_ANGULAR_RADIUS_DEGREES: f64 = 0.27;
+
 /// What is wrong with a light of a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

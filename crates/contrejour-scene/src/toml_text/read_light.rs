@@ -10,6 +10,7 @@ use super::value::{
     ANGULAR_RADIUS, ANY, Accepts, CASCADES, HALF_SHARE, NOT_NEGATIVE, OPENING, POSITIVE, SHARE, UP_TO_A_THOUSAND, Value,
 };
 use crate::framing::{cone_angle, depths_all_around, light_depths, sun_extents};
+use crate::scene_light::SUN_ANGULAR_RADIUS_DEGREES;
 use crate::{Bounds, Problem, Scene, SceneError, SceneLight};
 
 const KINDS: &[&str] = &["spot", "point", "directional"];
@@ -70,7 +71,6 @@ const CASCADED_KEYS: &[&str] = &[
     "border_share",
     "caster_margin",
 ];
-const SUN_ANGULAR_RADIUS_DEGREES: f64 = 0.27;
 
 /// The lights; `shadow` is what their shadows fall back to.
 pub(super) fn read_lights(
