@@ -5,6 +5,7 @@ use glam::DVec3;
 use wgpu::BufferUsages;
 
 use crate::gpu::Gpu;
+use crate::planted::{Replaced, planted};
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +28,6 @@ fn ask(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// A piece of the function's text, which it has once, and what is there with a fault.
-pub type Replaced = (&'static str, &'static str);
-
 /// What a light's function says of points after a frame, 0 dark to 1 lit; with a fault where one is given.
 ///
 /// # Panics
@@ -44,9 +42,8 @@ pub fn visibility_at(
 ) -> Vec<f32> {
     let device = &gpu.device;
     let mut function = shadows.visibility_wgsl(light, 1);
-    if let Some((piece, fault)) = fault {
-        assert_eq!(function.matches(piece).count(), 1, "the function says {piece:?} not once");
-        function = function.replace(piece, fault);
+    if let Some(fault) = fault {
+        function = planted(&function, fault);
     }
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,

@@ -7,6 +7,7 @@ use contrejour_layout::{BLOCK_SIZE, LightView};
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::harness::Outcome;
+use crate::planted::planted;
 use crate::stage_run::StageRun;
 
 /// Stages on a device, in the order in which a frame runs them.
@@ -51,9 +52,7 @@ impl Fault {
         match *self {
             Self::Skipped { .. } => None,
             Self::Replaced { stage, piece, fault } => {
-                let wgsl = wgsl_of(stage);
-                assert_eq!(wgsl.matches(piece).count(), 1, "{stage} says {piece:?} not once");
-                Some(StageRun::new(gpu, &wgsl.replace(piece, fault), stage))
+                Some(StageRun::new(gpu, &planted(wgsl_of(stage), (piece, fault)), stage))
             }
         }
     }

@@ -19,6 +19,7 @@ pub mod meshes;
 pub mod mirror_run;
 pub mod object_light;
 pub mod pipeline;
+pub mod planted;
 pub mod random;
 pub mod ray_cast;
 pub mod soft_edges;

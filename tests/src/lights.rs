@@ -101,6 +101,19 @@ pub fn point(position: DVec3, target: DVec3, radius: f64) -> Light {
     if light.validate().is_ok() { light } else { direction(position - target, DVec3::ZERO, radius) }
 }
 
+/// A spot at the origin that looks through a view from there, as wide and from as near on.
+pub fn through(view: &View, radius: f64) -> Light {
+    let kind = LightKind::Spot {
+        position: DVec3::ZERO,
+        target: view.axis_world,
+        cone_angle: 2.0 * view.half_side.atan(),
+        radius,
+        near: view.near_depth,
+        far: view.far_depth,
+    };
+    Light { kind, color: [1.0; 3] }
+}
+
 /// Parallel light that shadows what is around a centre; along y where the direction is zero.
 pub fn direction(towards_light: DVec3, center: DVec3, radius: f64) -> Light {
     let towards_light = if towards_light.length() > 0.0 { towards_light } else { DVec3::Y };

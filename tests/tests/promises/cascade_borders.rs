@@ -5,11 +5,12 @@
 
 use contrejour_gpu::ShadowOptions;
 use contrejour_plan::{CascadeSettings, Cascades, Eye, ShadowSettings, Technique, cascade_views};
-use contrejour_tests::ask::{Point, Replaced, visibility_at};
+use contrejour_tests::ask::{Point, visibility_at};
 use contrejour_tests::avenue::{EYE, PERIOD, Seen, Surface, avenue, seen_at, sun, truth};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::pipeline::Pipeline;
+use contrejour_tests::planted::Replaced;
 use contrejour_tests::random::Random;
 use glam::DVec3;
 use libtest_mimic::Trial;

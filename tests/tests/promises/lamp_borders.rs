@@ -10,11 +10,12 @@ use contrejour_gpu::ShadowOptions;
 use contrejour_layout::{Corner, Quad};
 use contrejour_plan::{
     AlphaRemap, CubeFace, Light, LightKind, LightOutline, ShadowSettings, SmoothieBlend, SmoothieSettings, Technique,
-    View, guard_ndc, views, views_with_guard,
+    View, frame_views, views,
 };
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
+use contrejour_tests::lights::through;
 use contrejour_tests::meshes::TestMesh;
 use contrejour_tests::pipeline::Pipeline;
 use contrejour_tests::random::Random;
@@ -59,22 +60,13 @@ fn settings(remap: AlphaRemap) -> ShadowSettings {
 fn lamp() -> (Light, Vec<View>) {
     let kind = LightKind::Point { position: DVec3::ZERO, radius: RADIUS, near: NEAR, far: FAR };
     let light = Light { kind, color: [1.0; 3] };
-    let guard = guard_ndc(&light, &settings(AlphaRemap::Contact));
-    let views = views_with_guard(&light, guard).expect("a good lamp");
+    let views = frame_views(&light, None, &settings(AlphaRemap::Contact)).expect("a good lamp").views;
     (light, views)
 }
 
 /// A spot that looks through a view of the lamp.
 fn spot(view: &View) -> (Light, View) {
-    let kind = LightKind::Spot {
-        position: DVec3::ZERO,
-        target: view.axis_world,
-        cone_angle: 2.0 * view.half_side.atan(),
-        radius: RADIUS,
-        near: view.near_depth,
-        far: FAR,
-    };
-    let light = Light { kind, color: [1.0; 3] };
+    let light = through(view, RADIUS);
     (light, views(&light).expect("a good spot")[0])
 }
 

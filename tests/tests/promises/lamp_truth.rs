@@ -8,9 +8,10 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use contrejour_plan::{CubeFace, Light, LightKind, ShadowSettings, Technique, View, guard_ndc, views_with_guard};
+use contrejour_plan::{CubeFace, Light, LightKind, ShadowSettings, Technique, guard_ndc, views_with_guard};
 use contrejour_scene::Scene;
 use contrejour_tests::harness::{Outcome, gpu_trial};
+use contrejour_tests::lights::through;
 use contrejour_tests::random::Random;
 use glam::{DMat4, DQuat, DVec3, Vec4Swizzles};
 use libtest_mimic::Trial;
@@ -92,19 +93,6 @@ fn lamp() -> String {
 
 fn any_spot() -> String {
     format!("kind = \"spot\"\nposition = [0, 0, 0]\ntarget = [0, -1, 0]\nradius = {RADIUS}\nnear = {NEAR}\nfar = {FAR}")
-}
-
-/// A spot that looks through a face of the cube, as wide as a view.
-fn spot(view: &View) -> Light {
-    let kind = LightKind::Spot {
-        position: DVec3::ZERO,
-        target: view.axis_world,
-        cone_angle: 2.0 * view.half_side.atan(),
-        radius: RADIUS,
-        near: view.near_depth,
-        far: FAR,
-    };
-    Light { kind, color: [1.0; 3] }
 }
 
 /// From the wall's side of the cube to its faces, edges and corners.
@@ -204,7 +192,7 @@ impl Wall {
             let views = views_with_guard(lamp.light(), guard).map_err(text_of)?;
             let (scene, lights) = match way {
                 Way::Sound => (lamp, vec![*lamp.light()]),
-                Way::Disks | Way::ShiftedBorders => (spots, views.iter().map(spot).collect()),
+                Way::Disks | Way::ShiftedBorders => (spots, views.iter().map(|view| through(view, RADIUS)).collect()),
             };
             let found = scene.visibilities(settings, &lights)?;
             // As wide as what faces share, or half a face.
