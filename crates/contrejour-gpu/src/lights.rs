@@ -222,9 +222,9 @@ impl LightState {
         timer: &mut T,
         after: impl FnMut(&mut wgpu::CommandEncoder, usize),
     ) -> Recorded {
+        let counted = counted.filter(|_| self.counts());
         self.is_due = self.counts() && counted.is_none();
         let Some(plan) = &self.plan else { return Recorded::default() };
-        let counted = counted.filter(|_| !plan.stages.is_empty());
         self.frame.encode(encoder, (plan, shared, &self.records.light_views), (light, counted), timer, after)
     }
 

@@ -284,7 +284,7 @@ impl Renderer {
 
     /// The lights that cast, in their order in the scene.
     pub fn casting_lights(&self) -> impl Iterator<Item = LightHandle> {
-        self.lights.handles.iter().copied().flatten()
+        self.lights.casting().map(|(handle, _)| handle)
     }
 
     /// Reads the last picture of [`draw`](Self::draw) back; waits for it.
