@@ -35,6 +35,7 @@ mod shaders;
 mod silhouette_lines;
 mod silhouettes;
 mod stage_timer;
+mod surface;
 mod surface_light;
 mod targets;
 mod texture_levels;

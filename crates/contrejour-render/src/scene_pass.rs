@@ -7,9 +7,10 @@ use contrejour_gpu::{LightHandle, ViewChoice, VisibilityKind};
 use crate::Gpu;
 use crate::casters::CastShadows;
 use crate::frame_uniforms::{FrameBinding, FrameUniforms};
-use crate::scene_meshes::{SceneMeshes, surface_layout};
+use crate::scene_meshes::SceneMeshes;
 use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, depth_state, mesh_pipeline, scene_pipeline};
 use crate::shaders::{AMBIENT, SHADE, UNSHADOWED};
+use crate::surface::surface_layout;
 use crate::surface_light::SurfaceLight;
 use crate::targets::{COLOR_FORMAT, RADIANCE_FORMAT};
 

@@ -38,8 +38,8 @@ mod tests {
     use naga::valid::{Capabilities, ValidationFlags, Validator};
 
     use crate::frame_uniforms::FrameUniforms;
-    use crate::scene_meshes::Surface;
     use crate::silhouette_lines::Overlay;
+    use crate::surface::Surface;
     use crate::surface_light::SurfaceLight;
 
     /// The module, which must be valid without any feature of the device.

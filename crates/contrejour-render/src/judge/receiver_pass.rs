@@ -6,9 +6,10 @@ use super::receivers::{Receiver, Receivers};
 use crate::Gpu;
 use crate::frame_uniforms::{FrameBinding, FrameUniforms};
 use crate::readback::{ReadError, read_texture};
-use crate::scene_meshes::{SceneMeshes, surface_layout};
+use crate::scene_meshes::SceneMeshes;
 use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, scene_pipeline};
 use crate::shaders::RECEIVERS;
+use crate::surface::surface_layout;
 use crate::targets::{DEPTH_FORMAT, passing_depth, target_texture};
 
 /// Bits of a position, and a number that is 0 where there is no receiver.
