@@ -4,8 +4,10 @@
 
 struct ReceiverVertex {
     @builtin(position) clip: vec4f,
-    @location(0) position_local: vec3f,
-    @location(1) @interpolate(flat) face_id: u32,
+    // Both as the picture's passes interpolate them, so that these ask for shadow at the same numbers.
+    @location(0) centre_local: vec3f,
+    @location(1) @interpolate(perspective, centroid) inside_local: vec4f,
+    @location(2) @interpolate(flat) face_id: u32,
 }
 
 struct Receiver {
@@ -16,15 +18,17 @@ struct Receiver {
 
 @vertex
 fn vertex_receivers(@builtin(vertex_index) corner: u32, @location(0) position: vec3f) -> ReceiverVertex {
-    let position_local = local_position(position);
-    let clip = frame.eye_clip_from_local * vec4f(position_local, 1.0);
-    return ReceiverVertex(clip, position_local, surface.first_face + corner / 3u);
+    let inside_local = surface.local_from_vertex * vec4f(position, 1.0);
+    let centre_local = local_position(position);
+    let clip = frame.eye_clip_from_local * vec4f(centre_local, 1.0);
+    return ReceiverVertex(clip, centre_local, inside_local, surface.first_face + corner / 3u);
 }
 
 @fragment
 fn fragment_receivers(vertex: ReceiverVertex) -> Receiver {
-    let normal = face_normal_local(vertex.position_local, vertex.position_local);
+    let position_local = vertex.inside_local.xyz / vertex.inside_local.w;
+    let normal = face_normal_local(position_local, vertex.centre_local);
     // What receives no shadow hides what is behind it, and is no receiver.
     let id = select(0u, vertex.face_id + 1u, surface.receives_shadow == 1u);
-    return Receiver(vec4u(bitcast<vec3u>(vertex.position_local), id), vec4f(normal, 0.0));
+    return Receiver(vec4u(bitcast<vec3u>(position_local), id), vec4f(normal, 0.0));
 }
