@@ -61,6 +61,15 @@ fn pictures_come_as_the_file_has_them() {
 }
 
 #[test]
+fn pictures_that_do_not_say_what_they_are() {
+    let untyped = textured(&json!({"bufferView": 2})).accessor(U8, "SCALAR", 4, b"JFIF");
+    assert_eq!(mesh(untyped).textured_parts[0].texture.image.bytes, b"JFIF");
+    let error = textured(&json!({"mimeType": "image/png"})).load().expect_err("it is nowhere");
+    let told = error.to_string();
+    assert!(matches!(error, LoadError::Malformed { .. }) && told.contains("image 0: has neither"), "{told}");
+}
+
+#[test]
 fn a_picture_that_is_missing_is_a_warning() {
     for (uri, told) in [("no.png", "folder/no.png"), ("https://a/b.png", "network"), ("a%0Ab.png", "control character")]
     {

@@ -51,6 +51,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], path: &Path) -> Result<Parsed<'a>, Load
     root.extensions_required.clear();
 
     check_position_accessors(&root, path)?;
+    complete_images(&mut root, path)?;
     let mut first_invalid = None;
     root.validate(&root, gltf::json::Path::new, &mut |place, invalid| {
         let place = place().to_string();
@@ -84,6 +85,25 @@ fn check_position_accessors(root: &Root, path: &Path) -> Result<(), LoadError> {
                     count,
                 });
             }
+        }
+    }
+    Ok(())
+}
+
+/// The reader expects of an image in a buffer that it says what it is, and of any other that it has a URI.
+fn complete_images(root: &mut Root, path: &Path) -> Result<(), LoadError> {
+    for (index, image) in root.images.iter_mut().enumerate() {
+        match (&image.buffer_view, &image.uri) {
+            (Some(_), _) if image.mime_type.is_none() => {
+                // Nobody asks: its first bytes tell.
+                image.mime_type = Some(gltf::json::image::MimeType(String::new()));
+            }
+            (None, None) => {
+                let problem = "has neither a bufferView nor a uri; give it one";
+                let place = format!("image {index}");
+                return Err(LoadError::Malformed { path: path.into(), place, problem: problem.into() });
+            }
+            _ => {}
         }
     }
     Ok(())
