@@ -40,7 +40,7 @@ fn classify_faces(
     let caster_light = caster_lights[item.caster];
     var verdicts = Verdicts(0u, 0u);
     if caster_light.casts != 0u && face_count > 0u {
-        if item.by_positions == 0u && is_in_range(caster_light.light_object) {
+        if item.kind == BLOCK_BY_PLANES && is_in_range(caster_light.light_object) {
             verdicts = classify_by_planes(caster.first_face + first_face_id, face_count, scaled_light(caster_light));
         } else {
             verdicts.undecided = 0xffffffffu >> (FACES_PER_WORD - face_count);

@@ -1,6 +1,8 @@
 // Lists the blocks of faces and of edges whose casters cast for the view.
 // One invocation = one block; the blocks of a workgroup are all of faces or all of edges.
-// Reads caster_lights, face_blocks, edge_blocks; writes face_items, edge_items, counters.face_items, counters.edge_items.
+// Masked faces go to the back of the list, where no stage looks.
+// Reads caster_lights, face_blocks, edge_blocks; writes face_items, edge_items, counters.face_items, counters.masked_items,
+// counters.edge_items.
 
 @group(0) @binding(0) var<uniform> view: LightView;
 @group(0) @binding(1) var<storage, read> caster_lights: array<CasterLight>;
@@ -26,6 +28,10 @@ fn list_blocks(
     if is_of_faces && index < view.face_block_count {
         item = face_blocks[index];
         casts = caster_lights[item.caster].casts != 0u;
+        if casts && item.kind == BLOCK_MASKED {
+            face_items[view.face_block_count - 1u - atomicAdd(&counters.masked_items, 1u)] = item;
+            casts = false;
+        }
     } else if !is_of_faces && index < view.edge_block_count {
         item = edge_blocks[index];
         casts = caster_lights[item.caster].casts != 0u;

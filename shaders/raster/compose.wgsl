@@ -9,5 +9,9 @@ fn fragment_compose(vertex: ShadeVertex) -> @location(0) vec4f {
     let face_normal = face_normal_local(seen_local(vertex), vertex.centre_local);
     let received = lit(vertex, face_normal, textureLoad(visibility, vec2u(vertex.clip.xy), 0).x);
     let ambient = ambient_at(shading_normal(vertex.normal_local, face_normal));
-    return vec4f(tone_mapped(received + base_color(vertex) * ambient), 1.0);
+    let color = base_color(vertex);
+    if is_cut(color.a) {
+        discard;
+    }
+    return vec4f(tone_mapped(received + color.rgb * ambient), 1.0);
 }

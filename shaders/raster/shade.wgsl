@@ -17,5 +17,8 @@ fn fragment_show_visibility(vertex: ShadeVertex) -> @location(0) vec4f {
     let position_local = seen_local(vertex);
     let face_normal = face_normal_local(position_local, vertex.centre_local);
     let visibility = contrejour_visibility(position_local, face_normal);
+    if is_cut(base_color(vertex).a) {
+        discard;
+    }
     return vec4f(vec3f(received_visibility(visibility)), 1.0);
 }

@@ -16,7 +16,7 @@ struct Counters {
     edge_items: u32,
     casters: u32,
     imageless_casters: u32,
-    unused_0: u32,
+    masked_items: u32,
 }
 
 struct DispatchArgs {

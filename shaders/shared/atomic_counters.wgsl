@@ -12,5 +12,5 @@ struct AtomicCounters {
     edge_items: atomic<u32>,
     casters: atomic<u32>,
     imageless_casters: atomic<u32>,
-    unused_0: atomic<u32>,
+    masked_items: atomic<u32>,
 }

@@ -35,6 +35,16 @@ struct Surface {
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(1) @binding(0) var<uniform> surface: Surface;
+@group(1) @binding(1) var base_color_texture: texture_2d<f32>;
+@group(1) @binding(2) var base_color_sampler: sampler;
+
+// Whether alpha cuts what a pipeline draws. The others keep the depth test in front of their fragments.
+override cuts = false;
+
+// Whether there is nothing: alpha of vertices is relative to the cutoff. Derivatives come before this.
+fn is_cut(alpha: f32) -> bool {
+    return cuts && alpha < 1.0;
+}
 
 fn local_position(position: vec3f) -> vec3f {
     return (surface.local_from_vertex * vec4f(position, 1.0)).xyz;

@@ -19,20 +19,17 @@ struct ShadeVertex {
     // lavapipe does; that scales these alike, so the ratios to this w, which would be 1, are right.
     @location(1) @interpolate(perspective, centroid) inside_local: vec4f,
     @location(2) @interpolate(perspective, centroid) normal_local: vec3f,
-    @location(3) @interpolate(perspective, centroid) color: vec3f,
+    @location(3) @interpolate(perspective, centroid) color: vec4f,
     @location(4) @interpolate(perspective, centroid) texture_coordinates: vec2f,
     // At the pixel's centre, for derivatives.
     @location(5) centre_coordinates: vec2f,
 }
 
-@group(1) @binding(1) var base_color_texture: texture_2d<f32>;
-@group(1) @binding(2) var base_color_sampler: sampler;
-
 @vertex
 fn vertex_shade(
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
-    @location(2) color: vec3f,
+    @location(2) color: vec4f,
     @location(3) texture_coordinates: vec2f,
 ) -> ShadeVertex {
     let inside_local = surface.local_from_vertex * vec4f(position, 1.0);
@@ -53,20 +50,21 @@ fn seen_local(vertex: ShadeVertex) -> vec3f {
     return vertex.inside_local.xyz / vertex.inside_local.w;
 }
 
-// Vertex colour times texture, or what the scene gives in their place.
-fn base_color(vertex: ShadeVertex) -> vec3f {
+// Vertex colour times texture, or what the scene gives in place of both, and their alpha.
+fn base_color(vertex: ShadeVertex) -> vec4f {
     let across = dpdx(vertex.centre_coordinates);
     let down = dpdy(vertex.centre_coordinates);
     let coordinates = vertex.texture_coordinates / vertex.inside_local.w;
     let texel = textureSampleGrad(base_color_texture, base_color_sampler, coordinates, across, down);
-    return select(vertex.color / vertex.inside_local.w * texel.rgb, surface.base_color.rgb, surface.base_color.w == 1.0);
+    let color = vertex.color / vertex.inside_local.w * texel;
+    return vec4f(select(color.rgb, surface.base_color.rgb, surface.base_color.w == 1.0), color.a);
 }
 
 // What the surface sends to the eye of the light where it is visible by this much.
 fn lit(vertex: ShadeVertex, face_normal: vec3f, visibility: f32) -> vec3f {
     let normal = shading_normal(vertex.normal_local, face_normal);
     let received = light_at(seen_local(vertex), normal) * received_visibility(visibility);
-    return min(base_color(vertex) * received, vec3f(BRIGHTEST_LIGHT));
+    return min(base_color(vertex).rgb * received, vec3f(BRIGHTEST_LIGHT));
 }
 
 // Ambient light on a white surface.

@@ -7,6 +7,8 @@ const BLOCK_SIZE = 64u;
 const FACES_PER_WORD = 32u;
 const LIT_WORDS_PER_BLOCK = 2u;
 const OUTLINE_WORDS_PER_BLOCK = 4u;
+const BLOCK_BY_PLANES = 0u;
+const BLOCK_MASKED = 2u;
 
 struct Face {
     a: u32,
@@ -40,11 +42,23 @@ struct Caster {
     first_outline_word: u32,
     position_scale: f32,
     position_origin: vec3f,
-    unused_0: u32,
+    mask: u32,
+}
+
+struct Mask {
+    first_vertex_word: u32,
+    first_texel_word: u32,
+    width: u32,
+    height: u32,
+    levels: u32,
+    wrap_u: u32,
+    wrap_v: u32,
+    is_nearest: u32,
+    cutoff: f32,
 }
 
 struct WorkItem {
     caster: u32,
     block: u32,
-    by_positions: u32,
+    kind: u32,
 }

@@ -2,8 +2,9 @@
 
 use bytemuck::{bytes_of, bytes_of_mut, cast_slice, cast_slice_mut};
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, CasterPlace, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
-    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SilhouetteEdge, VIEW_CULLS, WorkItem,
+    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, Caster, CasterLight, CasterPlace, Corner, Counters, DispatchArgs,
+    DrawArgs, Edge, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord,
+    SilhouetteEdge, VIEW_CULLS, WorkItem,
 };
 use contrejour_mesh::{FacePlanes, TopologyAwareMesh};
 use contrejour_plan::{Light, NearOne, ShadowSettings, View, ViewCounts, caster_place, views};
@@ -71,7 +72,7 @@ impl Frame {
             frame.caster_places.push(caster_place(&part.world_from_object, &near_one(&part.topology), bounds));
             frame.face_blocks.extend(blocks(index, caster.face_count).map(|item| {
                 let by_positions = is_by_positions(index) || !planes.block_fits(item.block);
-                WorkItem { by_positions: by_positions.into(), ..item }
+                WorkItem { kind: if by_positions { BLOCK_BY_POSITIONS } else { BLOCK_BY_PLANES }, ..item }
             }));
             frame.edge_blocks.extend(blocks(index, caster.edge_count));
             frame.casters.push(caster);
@@ -132,7 +133,7 @@ impl Frame {
             extrude_args: vec![DispatchArgs::default(); 2],
             quads: Vec::new(),
             corners: Vec::new(),
-            draw_args: vec![DrawArgs::default(); 3],
+            draw_args: vec![DrawArgs::default(); 4],
         }
     }
 
@@ -182,7 +183,7 @@ impl Frame {
             first_outline_word: outline_words,
             position_scale: near_one(mesh).scale,
             position_origin: near_one(mesh).origin,
-            unused_0: 0,
+            mask: 0,
         };
         for position in &mesh.positions {
             self.positions.extend(position.map(f32::to_bits));
@@ -276,7 +277,7 @@ fn near_one(mesh: &TopologyAwareMesh) -> NearOne {
 }
 
 fn blocks(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {
-    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block, by_positions: 0 })
+    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block, kind: 0 })
 }
 
 /// Whether the faces of a part are tested by positions alone: every third one's, but not those of a part alone.

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use contrejour_mesh::{
-    BuildOptions, EncodedImage, FileCamera, FileLight, FileLightKind, LoadError, MeshFile, Rig, TexturedPart,
-    TopologyAwareMesh, TopologyReport, TriangleMesh, load, load_animated,
+    BuildOptions, EncodedImage, FileCamera, FileLight, FileLightKind, LoadError, MeshFile, Rig, TopologyAwareMesh,
+    TopologyReport, TriangleMesh, load, load_animated,
 };
 use serde::Serialize;
 
@@ -105,7 +105,9 @@ fn light(FileLight { name, kind, intensity, .. }: FileLight) -> LightReport {
 fn textures(meshes: &[TriangleMesh]) -> Vec<TextureReport> {
     let mut reports: Vec<TextureReport> = Vec::new();
     let mut known = HashMap::new();
-    for TexturedPart { triangles, texture } in meshes.iter().flat_map(|mesh| &mesh.textured_parts) {
+    let parts = meshes.iter().flat_map(|mesh| &mesh.parts);
+    let textured = parts.filter_map(|part| Some((&part.triangles, part.texture.as_ref()?)));
+    for (triangles, texture) in textured {
         let index = *known.entry(Arc::as_ptr(&texture.image)).or_insert_with(|| {
             let EncodedImage { place, bytes } = &*texture.image;
             reports.push(TextureReport { picture: place.clone(), bytes: bytes.len(), triangles: 0 });

@@ -1,7 +1,8 @@
 //! The casters of a scene: where they stand, and their records.
 
 use contrejour_layout::{
-    BLOCK_SIZE, CASTER_NEVER, Caster, CasterPlace, LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK, WorkItem,
+    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_MASKED, BLOCK_SIZE, CASTER_NEVER, Caster, CasterPlace,
+    LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK, WorkItem,
 };
 use contrejour_plan::{CasterFacts, ObjectBox, PagePlan, caster_place};
 use glam::DMat4;
@@ -265,11 +266,17 @@ fn table(casters: &[(usize, &PlacedCaster)], meshes: &MeshPool, page: &PagePlan,
         let blocks = |first: u32, blocks: u32| {
             let first_block = first / BLOCK_SIZE;
             let caster = slot as u32;
-            (first_block..first_block + blocks).map(move |block| WorkItem { caster, block, by_positions: 0 })
+            (first_block..first_block + blocks).map(move |block| WorkItem { caster, block, kind: 0 })
         };
         let face_blocks = blocks(piece.first_face, piece.face_blocks()).map(|item| {
-            let by_positions = caster.live.is_some() || !meshes.has_planes(caster.mesh, item.block);
-            WorkItem { by_positions: by_positions.into(), ..item }
+            let kind = if meshes.is_masked(caster.mesh) {
+                BLOCK_MASKED
+            } else if caster.live.is_some() || !meshes.has_planes(caster.mesh, item.block) {
+                BLOCK_BY_POSITIONS
+            } else {
+                BLOCK_BY_PLANES
+            };
+            WorkItem { kind, ..item }
         });
         table.face_blocks.extend(face_blocks);
         if page.counts.edge_blocks > 0 {

@@ -93,6 +93,14 @@ pub enum AddMeshError {
         /// Words of positions that there would be.
         words: u64,
     },
+    /// The masks of all meshes together are more than 32 bits can index.
+    #[error(
+        "with this mesh there would be {words} words of masks, at most 4294967295 can be indexed: make pictures smaller"
+    )]
+    MasksTooLarge {
+        /// Words of masks that there would be.
+        words: u64,
+    },
 }
 
 /// Why a caster is not added, moved or removed.

@@ -15,6 +15,7 @@ mod frame;
 mod heartbeat;
 mod inputs;
 mod lights;
+mod masks;
 pub mod passes;
 mod pieces;
 mod pipelines;
@@ -43,8 +44,9 @@ pub use error::{
 pub use heartbeat::poll;
 pub use inputs::{FrameStats, Maps, ShadowOptions, device_facts};
 pub use lights::LightHandle;
+pub use masks::mask_facts;
 pub use pieces::mesh_pieces;
-pub use pool::{MeshHandle, mesh_facts};
+pub use pool::{MeshHandle, masked_mesh_facts, mesh_facts};
 pub use shadows::{FilledView, Shadows};
 pub use timer::{PassTimer, Untimed};
 pub use visibility::EyeInput;

@@ -4,9 +4,11 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use contrejour_layout::{BLOCK_SIZE, Caster, Edge, Face, VertexEdge};
-use contrejour_mesh::{EdgeClass, FacePlanes, TopologyAwareMesh};
+use contrejour_mesh::{EdgeClass, FacePlanes, MaskedMesh, TopologyAwareMesh};
 use contrejour_plan::{BufferKind, DeviceFacts, MeshFacts, MeshPiece, NearOne, PagePlan};
 
+use crate::error::AddMeshError;
+use crate::masks::MaskPool;
 use crate::pieces::{mesh_pieces, vertex_edges_of_piece};
 
 /// A mesh that was given to [`Shadows::add_mesh`](crate::Shadows::add_mesh).
@@ -20,11 +22,14 @@ pub(crate) struct MeshPool {
     facts: Vec<MeshFacts>,
     pieces: Vec<MeshPiece>,
     position_words: u64,
+    masks: MaskPool,
 }
 
 #[derive(Debug)]
 pub(crate) struct PooledMesh {
     pub topology: Arc<TopologyAwareMesh>,
+    /// The number of what cuts its faces; 0 for nothing.
+    mask: u32,
     pub first_position_word: u32,
     pub near_one: NearOne,
     /// Blocks of faces without planes that fit, as far as its planes have been asked for.
@@ -44,23 +49,43 @@ pub(crate) struct PiecePlace {
 const WORDS_PER_POSITION: u64 = 3;
 
 impl MeshPool {
+    /// Adds a mesh with a mask.
+    pub fn add_masked(&mut self, mesh: &Arc<MaskedMesh>, device: &DeviceFacts) -> Result<MeshHandle, AddMeshError> {
+        self.words_with(mesh.mesh()).map_err(|words| AddMeshError::PoolTooLarge { words })?;
+        let mask = self.masks.add(mesh).map_err(|words| AddMeshError::MasksTooLarge { words })?;
+        self.add_with(Arc::clone(mesh.mesh()), mask, device).map_err(|words| AddMeshError::PoolTooLarge { words })
+    }
+
     /// Adds a mesh; `Err` holds the words of positions that there would be, more than 32 bits can index.
     pub fn add(&mut self, topology: Arc<TopologyAwareMesh>, device: &DeviceFacts) -> Result<MeshHandle, u64> {
-        let words = self.position_words + WORDS_PER_POSITION * topology.positions.len() as u64;
-        if words > u64::from(u32::MAX) {
-            return Err(words);
-        }
+        self.add_with(topology, 0, device)
+    }
+
+    fn add_with(
+        &mut self,
+        topology: Arc<TopologyAwareMesh>,
+        mask: u32,
+        device: &DeviceFacts,
+    ) -> Result<MeshHandle, u64> {
+        let words = self.words_with(&topology)?;
         let index = self.meshes.len();
-        self.facts.push(mesh_facts(&topology));
+        self.facts.push(MeshFacts { is_masked: mask > 0, ..mesh_facts(&topology) });
         self.pieces.extend(mesh_pieces(&topology, index, device));
         self.meshes.push(PooledMesh {
             first_position_word: self.position_words as u32,
             near_one: NearOne::of_box(topology.bounds_min, topology.bounds_max),
             topology,
+            mask,
             unfit_blocks: BTreeSet::new(),
         });
         self.position_words = words;
         Ok(MeshHandle(index))
+    }
+
+    /// Words of positions with another mesh.
+    fn words_with(&self, topology: &TopologyAwareMesh) -> Result<u64, u64> {
+        let words = self.position_words + WORDS_PER_POSITION * topology.positions.len() as u64;
+        if words > u64::from(u32::MAX) { Err(words) } else { Ok(words) }
     }
 
     /// A mesh; `None` for a handle of another object.
@@ -116,7 +141,7 @@ impl MeshPool {
             first_outline_word: 0,
             position_scale: mesh.near_one.scale,
             position_origin: mesh.near_one.origin,
-            unused_0: 0,
+            mask: mesh.mask,
         }
     }
 
@@ -125,6 +150,16 @@ impl MeshPool {
         for mesh in &self.meshes {
             write(4 * u64::from(mesh.first_position_word), bytemuck::cast_slice(&mesh.topology.positions));
         }
+    }
+
+    /// The masks of all meshes.
+    pub fn masks(&self) -> &MaskPool {
+        &self.masks
+    }
+
+    /// Whether a mask cuts the faces of a mesh.
+    pub fn is_masked(&self, handle: MeshHandle) -> bool {
+        self.meshes[handle.0].mask > 0
     }
 
     /// Whether the planes of all faces of a block fit, as far as they have been asked for.
@@ -136,7 +171,11 @@ impl MeshPool {
     /// filled when meshes come, and seldom else.
     pub fn fill_planes(&mut self, page: &PagePlan, mut write: impl FnMut(u64, &[u8])) {
         for (piece, place) in page.pieces.iter().zip(self.places(page)) {
-            let PooledMesh { topology, unfit_blocks, .. } = &mut self.meshes[piece.mesh];
+            let PooledMesh { topology, unfit_blocks, mask, .. } = &mut self.meshes[piece.mesh];
+            // No stage tests its faces.
+            if *mask > 0 {
+                continue;
+            }
             let faces = &topology.faces[piece.first_face as usize..][..piece.faces as usize];
             let planes = FacePlanes::new(&topology.positions, faces);
             write(size_of::<[f32; 4]>() as u64 * u64::from(place.face), bytemuck::cast_slice(&planes.planes));
@@ -180,6 +219,11 @@ impl MeshPool {
     }
 }
 
+/// What the frame plan needs to know of a mesh with a mask.
+pub fn masked_mesh_facts(mesh: &MaskedMesh) -> MeshFacts {
+    MeshFacts { is_masked: true, ..mesh_facts(mesh.mesh()) }
+}
+
 /// What the frame plan needs to know of a mesh.
 pub fn mesh_facts(mesh: &TopologyAwareMesh) -> MeshFacts {
     let candidates = &mesh.edge_classes[..mesh.candidate_edge_count as usize];
@@ -192,5 +236,6 @@ pub fn mesh_facts(mesh: &TopologyAwareMesh) -> MeshFacts {
         other_edges,
         incidence_words: mesh.incidences.len() as u32,
         vertex_edges: mesh.vertex_edges.len() as u32,
+        is_masked: false,
     }
 }

@@ -43,6 +43,7 @@ impl Shadows {
             pieces: self.meshes.pieces().to_vec(),
             casters: self.casters.facts(),
             receivers: Vec::new(),
+            masks: self.meshes.masks().facts(),
         };
         let plans = |shared: &[BufferKind]| -> Result<Vec<_>, PlanError> {
             let plan = |(_, light): (usize, &crate::lights::LightState)| {

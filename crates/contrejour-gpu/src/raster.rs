@@ -4,7 +4,7 @@ use contrejour_layout::{DrawArgs, LightView};
 use contrejour_plan::{BufferKind, EntryPoints, FramePlan, PagePlan, Pass, PipelinePlan, TextureKind};
 
 use crate::frame::Recorded;
-use crate::passes::{ClearColor, DrawCount, Levels, MapPass};
+use crate::passes::{ClearColor, DepthKept, DrawCount, Levels, MapPass};
 use crate::resources::{Bindings, Buffers, Textures, UNFILTERED_FLOAT, binding_type, format};
 use crate::timer::PassTimer;
 
@@ -23,6 +23,7 @@ struct Planned {
     pipelines: Vec<PipelinePlan>,
     color: Option<wgpu::TextureFormat>,
     depth: Option<wgpu::TextureFormat>,
+    stores_depth: bool,
 }
 
 impl Planned {
@@ -32,6 +33,11 @@ impl Planned {
             pipelines: plan.pipelines.iter().filter(is_of_pass).cloned().collect(),
             color: description.color.map(|target| planned_format(plan, target.texture)),
             depth: description.depth.map(|target| planned_format(plan, target.texture)),
+            stores_depth: description.depth.is_some_and(|target| match target.kept {
+                DepthKept::Never => false,
+                DepthKept::Before(pass) => plan.has_pass(pass),
+                DepthKept::Always => true,
+            }),
         }
     }
 }
@@ -187,8 +193,8 @@ impl MapPipeline {
         let depth = self.description.depth.map(|target| wgpu::RenderPassDepthStencilAttachment {
             view: &textures.levels(target.texture, drawn.view)[0],
             depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(1.0),
-                store: if target.is_kept { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard },
+                load: if target.is_drawn { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(1.0) },
+                store: if self.planned.stores_depth { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard },
             }),
             stencil_ops: None,
         });
@@ -242,6 +248,7 @@ fn load_color(clear: ClearColor, view: &LightView) -> wgpu::LoadOp<wgpu::Color> 
     let (r, g) = match clear {
         // What is drawn over need not be loaded: a clear is cheaper.
         ClearColor::Nothing => (0.0, 0.0),
+        ClearColor::Drawn => return wgpu::LoadOp::Load,
         ClearColor::FarDepth => (far_depth, 0.0),
         ClearColor::Lit => (LIT, 0.0),
         ClearColor::FarDepthAndLit => (far_depth, LIT),
@@ -254,7 +261,7 @@ fn bind_group_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::Bind
     let buffers = kinds.iter().zip(0..).map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: match kind {
-            BufferKind::LightView => wgpu::ShaderStages::VERTEX_FRAGMENT,
+            BufferKind::LightView | BufferKind::Masks | BufferKind::MaskWords => wgpu::ShaderStages::VERTEX_FRAGMENT,
             _ => wgpu::ShaderStages::VERTEX,
         },
         ty: wgpu::BindingType::Buffer {

@@ -66,6 +66,10 @@ impl SceneBuffers {
         if made.contains(&(BufferKind::Positions, 0)) {
             meshes.fill_positions(|offset, data| write((BufferKind::Positions, 0), offset, data));
         }
+        if made.contains(&(BufferKind::Masks, 0)) || made.contains(&(BufferKind::MaskWords, 0)) {
+            write((BufferKind::Masks, 0), 0, bytemuck::cast_slice(&meshes.masks().records()));
+            meshes.masks().fill_words(|offset, data| write((BufferKind::MaskWords, 0), offset, data));
+        }
         // Where nobody reads planes, their buffer has no room for them.
         let has_planes = plan.reason(&Omitted::FacePlanes).is_none() && plan.buffer(BufferKind::Planes).is_some();
         for (page, index) in plan.pages.iter().zip(0..) {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use contrejour_layout::Counters;
-use contrejour_mesh::TopologyAwareMesh;
+use contrejour_mesh::{MaskedMesh, TopologyAwareMesh};
 use contrejour_plan::{BufferKind, Capacity, DeviceFacts, Eye, FramePlan, Light};
 use glam::DMat4;
 
@@ -94,6 +94,17 @@ impl Shadows {
         let handle = self.meshes.add(mesh, &self.device_facts);
         self.is_stale = true;
         handle.map_err(|words| AddMeshError::PoolTooLarge { words })
+    }
+
+    /// Adds a mesh whose faces a mask cuts. Its casters are in the shadow maps with their holes and have neither silhouettes
+    /// nor smoothies: [the plan](contrejour_plan::FramePlan::left_out) says so for each.
+    ///
+    /// # Errors
+    ///
+    /// The positions of all meshes together, or their masks, are more than 32 bits can index.
+    pub fn add_masked_mesh(&mut self, mesh: &Arc<MaskedMesh>) -> Result<MeshHandle, AddMeshError> {
+        self.is_stale = true;
+        self.meshes.add_masked(mesh, &self.device_facts)
     }
 
     /// Adds a caster: one place of one mesh.

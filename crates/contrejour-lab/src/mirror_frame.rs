@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use bytemuck::cast_slice;
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Edge, Face, LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, WorkItem,
+    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, Caster, CasterLight, Edge, Face, LIT_WORDS_PER_BLOCK, LightView,
+    OUTLINE_WORDS_PER_BLOCK, WorkItem,
 };
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_mirror::{FrameInputs, FrameOutputs, run_facing, run_frame};
@@ -65,7 +66,7 @@ impl<'a> MirrorFrame<'a> {
             if light.casts == 1 {
                 frame.face_items.extend(items(index, caster.face_count).map(|item| {
                     let by_positions = !planes.block_fits(item.block);
-                    WorkItem { by_positions: by_positions.into(), ..item }
+                    WorkItem { kind: if by_positions { BLOCK_BY_POSITIONS } else { BLOCK_BY_PLANES }, ..item }
                 }));
                 frame.edge_items.extend(items(index, caster.edge_count));
             }
@@ -115,7 +116,7 @@ impl<'a> MirrorFrame<'a> {
                 .map_or(0, |last| last.first_outline_word + words(last.edge_count, OUTLINE_WORDS_PER_BLOCK)),
             position_scale: near_one(mesh).scale,
             position_origin: near_one(mesh).origin,
-            unused_0: 0,
+            mask: 0,
         };
         append(&mut self.positions, cast_slice(&mesh.positions));
         append(&mut self.faces, &mesh.faces);
@@ -162,7 +163,7 @@ fn near_one(mesh: &TopologyAwareMesh) -> NearOne {
 }
 
 fn items(caster: u32, count: u32) -> impl Iterator<Item = WorkItem> {
-    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block, by_positions: 0 })
+    (0..count.div_ceil(BLOCK_SIZE)).map(move |block| WorkItem { caster, block, kind: 0 })
 }
 
 /// Borrows what comes first, since most frames have one mesh.

@@ -19,7 +19,7 @@ shared_struct! {
         point_edges: u32,
         /// Words of lit bits with faces that their planes leave undecided.
         recheck_words: u32,
-        /// Blocks of faces of the casters that cast for the view.
+        /// Blocks of faces without a mask of the casters that cast for the view; they fill the list from its front.
         face_items: u32,
         /// Blocks of edges of the casters that cast for the view.
         edge_items: u32,
@@ -27,8 +27,8 @@ shared_struct! {
         casters: u32,
         /// Casters that cast for the view and have no image in it: 32-bit floats can't hold their clip space.
         imageless_casters: u32,
-        /// Zero.
-        unused_0: u32,
+        /// Blocks of masked faces of the casters that cast for the view; they fill the list from its back.
+        masked_items: u32,
     }
 }
 
@@ -47,7 +47,7 @@ impl core::iter::Sum for Counters {
             edge_items: sum.edge_items.saturating_add(page.edge_items),
             casters: sum.casters.saturating_add(page.casters),
             imageless_casters: sum.imageless_casters.saturating_add(page.imageless_casters),
-            ..sum
+            masked_items: sum.masked_items.saturating_add(page.masked_items),
         })
     }
 }

@@ -64,6 +64,7 @@ pub const SHARED_STRUCTS: &[SharedStruct] = &[
     Edge::SHARED,
     VertexEdge::SHARED,
     Caster::SHARED,
+    Mask::SHARED,
     WorkItem::SHARED,
     CasterPlace::SHARED,
     CasterLight::SHARED,

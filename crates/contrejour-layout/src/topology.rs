@@ -98,10 +98,45 @@ shared_struct! {
         /// A point amid its positions where those are far from zero, so that the image keeps all their digits; else
         /// zeros.
         position_origin: [f32; 3],
-        /// Zero.
-        unused_0: u32,
+        /// One more than the index of its [`Mask`]; 0 where nothing cuts its faces.
+        mask: u32,
     }
 }
+
+shared_struct! {
+    /// What cuts the faces of a mesh: alpha, as a picture has it times that of the vertices.
+    Mask {
+        /// Where its vertices start in the buffer of mask words: for each source vertex the two coordinates in the picture
+        /// and its alpha, three 32-bit floats.
+        first_vertex_word: u32,
+        /// Where its picture starts there: level after level from the largest, rows from the top, one byte a texel, each
+        /// level from a word on.
+        first_texel_word: u32,
+        /// Texels from left to right of the first level; each level has half as many as the one before, at least 1.
+        width: u32,
+        /// Texels from top to bottom of the first level.
+        height: u32,
+        /// Levels, at least 1.
+        levels: u32,
+        /// What is left and right of the picture: [`MASK_REPEAT`], [`MASK_MIRROR`] or [`MASK_CLAMP`].
+        wrap_u: u32,
+        /// What is above and below it.
+        wrap_v: u32,
+        /// 1 where the nearest texel counts, 0 where the nearest four are weighed.
+        is_nearest: u32,
+        /// Alpha below which there is nothing.
+        cutoff: f32,
+    }
+}
+
+/// Beyond its edges the picture comes again.
+pub const MASK_REPEAT: u32 = 0;
+
+/// Beyond its edges the picture comes again, each second one mirrored.
+pub const MASK_MIRROR: u32 = 1;
+
+/// Beyond its edges are the texels at the edge.
+pub const MASK_CLAMP: u32 = 2;
 
 shared_struct! {
     /// What one workgroup does: one block of [`BLOCK_SIZE`](crate::BLOCK_SIZE) faces or edges of one caster.
@@ -110,8 +145,17 @@ shared_struct! {
         caster: u32,
         /// Which block of its faces or edges.
         block: u32,
-        /// 1 for a block of faces without stored planes: their positions are the caller's, or a plane does not fit into
-        /// floats. Else 0.
-        by_positions: u32,
+        /// What is done with a block of faces: [`BLOCK_BY_PLANES`], [`BLOCK_BY_POSITIONS`] or [`BLOCK_MASKED`]. 0 for
+        /// edges.
+        kind: u32,
     }
 }
+
+/// Its faces are tested by their stored planes.
+pub const BLOCK_BY_PLANES: u32 = 0;
+
+/// Its faces are tested by their positions: these are the caller's, or a plane does not fit into floats.
+pub const BLOCK_BY_POSITIONS: u32 = 1;
+
+/// Its faces have a mask: they are drawn into the shadow map and no stage tests them.
+pub const BLOCK_MASKED: u32 = 2;

@@ -2,6 +2,7 @@
 
 mod camera_and_light;
 mod load;
+mod mask;
 mod normals;
 mod planes;
 mod read_file;
@@ -12,6 +13,7 @@ mod triangle_mesh;
 
 pub use camera_and_light::{FileCamera, FileLight, FileLightKind};
 pub use load::*;
+pub use mask::*;
 pub use planes::FacePlanes;
 pub use read_file::{ReadFileError, read_file};
 pub use rig::{

@@ -143,6 +143,9 @@ impl TriangleMesh {
         self.normals.push(self.normals[vertex]);
         self.colors.push(self.colors[vertex]);
         self.vertex_numbers.push(self.vertex_numbers[vertex]);
+        if let Some(&alpha) = self.alphas.get(vertex) {
+            self.alphas.push(alpha);
+        }
         if let Some(&coordinates) = self.texture_coordinates.get(vertex) {
             self.texture_coordinates.push(coordinates);
         }

@@ -1,5 +1,6 @@
 //! Triangles as they come from a file or a generator, before any topology.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -18,11 +19,14 @@ pub struct TriangleMesh {
     pub normals: Vec<[f32; 3]>,
     /// Linear base colour of each vertex, 0..1; as many as positions.
     pub colors: Vec<[f32; 3]>,
+    /// Alpha of each vertex, 0..1; as many as positions, or none where no part is cut by alpha.
+    pub alphas: Vec<f32>,
     /// Texture coordinates of each vertex, (0, 0) at the upper left corner of a picture and (1, 1) at the lower right one;
     /// as many as positions, or none where no part has a texture.
     pub texture_coordinates: Vec<[f32; 2]>,
-    /// The triangles whose colours are multiplied by a texture; ascending, and no triangle is in two of them.
-    pub textured_parts: Vec<TexturedPart>,
+    /// The triangles that have a texture or are cut by alpha; ascending, and no triangle is in two of them. A vertex of what
+    /// is cut is in no part with another cutoff.
+    pub parts: Vec<MaterialPart>,
     /// Vertex indices of each triangle, counter-clockwise from its front.
     pub triangles: Vec<[u32; 3]>,
     /// Number of each vertex in its file; of vertices with the same position the lowest stands for all.
@@ -34,15 +38,37 @@ pub struct TriangleMesh {
 impl TriangleMesh {
     /// Linear base colour where a file says nothing: a light grey.
     pub const DEFAULT_COLOR: [f32; 3] = [0.8; 3];
+
+    /// The triangles that no alpha cuts: those with silhouettes.
+    pub fn uncut_triangles(&self) -> Cow<'_, [[u32; 3]]> {
+        if self.cut_parts().next().is_none() {
+            return Cow::Borrowed(&self.triangles);
+        }
+        let mut uncut = Vec::new();
+        let mut next = 0;
+        for (part, _) in self.cut_parts() {
+            uncut.extend_from_slice(&self.triangles[next..part.triangles.start as usize]);
+            next = part.triangles.end as usize;
+        }
+        uncut.extend_from_slice(&self.triangles[next..]);
+        Cow::Owned(uncut)
+    }
+
+    /// The parts that alpha cuts, each with its cutoff.
+    pub fn cut_parts(&self) -> impl Iterator<Item = (&MaterialPart, f32)> {
+        self.parts.iter().filter_map(|part| Some((part, part.alpha_cutoff?)))
+    }
 }
 
-/// Triangles of a mesh that one texture colours.
+/// Triangles of a mesh that one material colours or cuts.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TexturedPart {
+pub struct MaterialPart {
     /// Which of the mesh's triangles.
     pub triangles: Range<u32>,
-    /// Base colour that the vertex colours are multiplied by.
-    pub texture: Arc<Texture>,
+    /// What colours and alphas of vertices are multiplied by.
+    pub texture: Option<Arc<Texture>>,
+    /// Alpha below which there is nothing, more than 0; none where alpha does not matter.
+    pub alpha_cutoff: Option<f32>,
 }
 
 /// A mesh placed in its file's world.

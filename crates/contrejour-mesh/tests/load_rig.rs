@@ -202,7 +202,9 @@ fn at_rest_the_rig_and_the_plain_loader_agree() {
                 assert!((plain - rig).abs() <= 1e-6 * size, "{}: {plain} and {rig}", path.display());
             }
             let Some(deforming) = &part.deforming else { continue };
-            let topology = deforming.topology(mesh).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            let topology = deforming
+                .topology(&mesh.positions, &mesh.triangles)
+                .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
             assert_eq!(topology.candidate_edge_count as usize, topology.edges.len());
             let rigid = TopologyAwareMesh::build(&plain.positions, &plain.triangles, &BuildOptions::default())
                 .unwrap_or_else(|error| panic!("{}: {error}", path.display()));

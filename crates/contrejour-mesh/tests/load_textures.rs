@@ -6,7 +6,9 @@ mod gltf_file;
 use std::path::Path;
 use std::sync::Arc;
 
-use contrejour_mesh::{LoadError, MeshFile, ReadFileError, TextureFilter, TextureWrap, TriangleMesh, load_bytes};
+use contrejour_mesh::{
+    LoadError, MaterialPart, MeshFile, ReadFileError, Texture, TextureFilter, TextureWrap, TriangleMesh, load_bytes,
+};
 use gltf_file::{Builder, F32, U8, f32_bytes, square};
 use serde_json::{Value, json};
 
@@ -32,6 +34,11 @@ fn data_uri() -> Value {
     json!({"uri": "data:image/png;base64,iVBORw=="})
 }
 
+/// The texture of a part.
+fn texture(part: &MaterialPart) -> &Arc<Texture> {
+    part.texture.as_ref().expect("it has one")
+}
+
 /// Loads with one file beside, `leaf 1.png`.
 fn with_leaf_beside(builder: Builder) -> MeshFile {
     let read_beside = |path: &Path| match path.to_str() {
@@ -45,25 +52,25 @@ fn with_leaf_beside(builder: Builder) -> MeshFile {
 #[test]
 fn pictures_come_as_the_file_has_them() {
     let from_uri = mesh(textured(&data_uri()));
-    let [part] = &from_uri.textured_parts[..] else { panic!("one part has a texture") };
-    assert_eq!((part.triangles.clone(), &part.texture.image.bytes[..]), (0..2, &b"\x89PNG"[..]));
-    assert_eq!(part.texture.image.place, "literal.gltf: image 0");
+    let [part] = &from_uri.parts[..] else { panic!("one part has a texture") };
+    assert_eq!((part.triangles.clone(), &texture(part).image.bytes[..]), (0..2, &b"\x89PNG"[..]));
+    assert_eq!(texture(part).image.place, "literal.gltf: image 0");
     assert_eq!(from_uri.texture_coordinates, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
-    assert_eq!((part.texture.wrap, part.texture.filter), ([TextureWrap::Repeat; 2], TextureFilter::Linear));
+    assert_eq!((texture(part).wrap, texture(part).filter), ([TextureWrap::Repeat; 2], TextureFilter::Linear));
 
     let in_buffer = textured(&json!({"bufferView": 2, "mimeType": "image/jpeg"})).accessor(U8, "SCALAR", 4, b"JFIF");
-    assert_eq!(mesh(in_buffer).textured_parts[0].texture.image.bytes, b"JFIF");
+    assert_eq!(texture(&mesh(in_buffer).parts[0]).image.bytes, b"JFIF");
 
     let beside = with_leaf_beside(textured(&json!({"uri": "leaf%201.png"})));
     assert_eq!(beside.warnings, [""; 0]);
-    let image = &beside.meshes[0].textured_parts[0].texture.image;
+    let image = &texture(&beside.meshes[0].parts[0]).image;
     assert_eq!((image.place.as_str(), &image.bytes[..]), ("folder/leaf 1.png", &b"leaf"[..]));
 }
 
 #[test]
 fn pictures_that_do_not_say_what_they_are() {
     let untyped = textured(&json!({"bufferView": 2})).accessor(U8, "SCALAR", 4, b"JFIF");
-    assert_eq!(mesh(untyped).textured_parts[0].texture.image.bytes, b"JFIF");
+    assert_eq!(texture(&mesh(untyped).parts[0]).image.bytes, b"JFIF");
     let error = textured(&json!({"mimeType": "image/png"})).load().expect_err("it is nowhere");
     let told = error.to_string();
     assert!(matches!(error, LoadError::Malformed { .. }) && told.contains("image 0: has neither"), "{told}");
@@ -74,7 +81,7 @@ fn a_picture_that_is_missing_is_a_warning() {
     for (uri, told) in [("no.png", "folder/no.png"), ("https://a/b.png", "network"), ("a%0Ab.png", "control character")]
     {
         let file = with_leaf_beside(textured(&json!({"uri": uri})));
-        assert!(file.meshes[0].textured_parts.is_empty() && file.meshes[0].texture_coordinates.is_empty());
+        assert!(file.meshes[0].parts.is_empty() && file.meshes[0].texture_coordinates.is_empty());
         let [warning] = &file.warnings[..] else { panic!("{:?}", file.warnings) };
         assert!(warning.starts_with("image 0: texture not read") && warning.contains(told), "{warning}");
     }
@@ -82,17 +89,43 @@ fn a_picture_that_is_missing_is_a_warning() {
 
 #[test]
 fn alpha_that_is_not_read_is_a_warning() {
-    for (mode, warnings) in [("OPAQUE", 0), ("MASK", 1), ("BLEND", 1)] {
+    for (mode, warnings, cutoff) in [("OPAQUE", 0, None), ("MASK", 0, Some(0.5)), ("BLEND", 1, None)] {
         let file = textured(&data_uri()).set("/materials/0/alphaMode", json!(mode)).loaded();
-        assert_eq!((file.warnings.len(), file.meshes[0].textured_parts.len()), (warnings, 1), "{:?}", file.warnings);
+        let [part] = &file.meshes[0].parts[..] else { panic!("it has one part") };
+        assert_eq!((file.warnings.len(), part.alpha_cutoff), (warnings, cutoff), "{:?}", file.warnings);
     }
+}
+
+#[test]
+fn masks_come_with_the_alpha_of_their_vertices() {
+    let cut = |cutoff: f32| json!({"alphaMode": "MASK", "alphaCutoff": cutoff, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}});
+    let alphas = f32_bytes(&[1.0, 1.0, 1.0, 0.25, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0]);
+    let primitives = json!([
+        {"attributes": {"POSITION": 0}, "mode": 5},
+        {"attributes": {"POSITION": 0, "COLOR_0": 1}, "mode": 5, "material": 0},
+    ]);
+    let builder = || {
+        square()
+            .accessor(F32, "VEC4", 4, &alphas)
+            .set("/meshes/0/primitives", primitives.clone())
+            .set("/materials", json!([cut(0.3)]))
+    };
+    let mesh = mesh(builder());
+    let [part] = &mesh.parts[..] else { panic!("{:?}", mesh.parts) };
+    assert_eq!((part.triangles.clone(), part.alpha_cutoff, part.texture.is_none()), (2..4, Some(0.3), true));
+    assert_eq!(mesh.uncut_triangles()[..], mesh.triangles[..2]);
+    for (vertex, number) in mesh.vertex_numbers.iter().enumerate() {
+        assert_eq!(mesh.alphas[vertex], [1.0, 1.0, 1.0, 1.0, 0.125, 0.5, 0.5, 0.0][*number as usize]);
+    }
+    let error = builder().set("/materials", json!([cut(-1.0)])).load().expect_err("it is negative");
+    assert!(error.to_string().contains("alphaCutoff"), "{error}");
 }
 
 #[test]
 fn samplers_say_what_is_beyond_and_between() {
     let sampler = json!([{"magFilter": 9728, "wrapS": 33648, "wrapT": 33071}]);
     let mesh = mesh(textured(&data_uri()).set("/samplers", sampler).set("/textures/0/sampler", json!(0)));
-    let texture = &mesh.textured_parts[0].texture;
+    let texture = texture(&mesh.parts[0]);
     assert_eq!((texture.wrap, texture.filter), ([TextureWrap::Mirror, TextureWrap::Clamp], TextureFilter::Nearest));
 }
 
@@ -131,9 +164,9 @@ fn parts_share_pictures_and_know_their_triangles() {
             )
             .set("/meshes/0/primitives", json!([plain, primitive(json!(0)), plain, primitive(json!(1))])),
     );
-    let [first, second] = &mesh.textured_parts[..] else { panic!("{:?}", mesh.textured_parts) };
+    let [first, second] = &mesh.parts[..] else { panic!("{:?}", mesh.parts) };
     assert_eq!([&first.triangles, &second.triangles], [&(2..4), &(6..8)]);
-    assert!(Arc::ptr_eq(&first.texture.image, &second.texture.image) && first.texture != second.texture);
+    assert!(Arc::ptr_eq(&texture(first).image, &texture(second).image) && first.texture != second.texture);
     assert_eq!(mesh.texture_coordinates.len(), mesh.positions.len());
     // Vertices are repeated where faces fold back on each other.
     for (vertex, number) in mesh.vertex_numbers.iter().enumerate() {
@@ -149,7 +182,7 @@ fn parts_share_pictures_and_know_their_triangles() {
 fn coordinates_that_are_missing_or_no_numbers() {
     let info = json!({"index": 0, "texCoord": 3});
     let file = textured(&data_uri()).set("/materials/0/pbrMetallicRoughness/baseColorTexture", info).loaded();
-    assert!(file.meshes[0].textured_parts.is_empty());
+    assert!(file.meshes[0].parts.is_empty());
     assert!(matches!(&file.warnings[..], [warning] if warning.contains("texture coordinates")), "{:?}", file.warnings);
 
     let bad = f32_bytes(&[0.0, f32::NAN, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0]);

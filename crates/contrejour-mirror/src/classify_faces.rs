@@ -5,7 +5,8 @@
 //! may round otherwise and list a few other faces; what both decide is equal.
 
 use contrejour_layout::{
-    Caster, CasterLight, Counters, FACES_PER_WORD, LIT_WORDS_PER_BLOCK, LightView, RecheckWord, WorkItem,
+    BLOCK_BY_PLANES, Caster, CasterLight, Counters, FACES_PER_WORD, LIT_WORDS_PER_BLOCK, LightView, RecheckWord,
+    WorkItem,
 };
 
 /// The bindings of `classify_faces`.
@@ -45,7 +46,7 @@ impl ClassifyFaces<'_> {
         let face_count = caster.face_count.saturating_sub(first_face_id).min(FACES_PER_WORD);
         let [lit, undecided] = match scaled_light(caster_light) {
             _ if caster_light.casts == 0 || face_count == 0 => [0, 0],
-            Some(light) if item.by_positions == 0 => {
+            Some(light) if item.kind == BLOCK_BY_PLANES => {
                 let first_face = caster.first_face.wrapping_add(first_face_id) as usize;
                 classify_by_planes(&self.planes[first_face..][..face_count as usize], light)
             }

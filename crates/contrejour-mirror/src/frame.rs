@@ -59,7 +59,7 @@ pub struct FrameOutputs {
     /// The dispatches of `extrude_edges` and `build_corners`.
     pub extrude_args: [DispatchArgs; 2],
     /// The draws of quads and corners, behind that of the faces, which is left as it is.
-    pub draw_args: [DrawArgs; 3],
+    pub draw_args: [DrawArgs; 4],
 }
 
 /// Runs the stages of one light view in order, from `classify_faces` on: work items and the light as each caster sees it
@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(frame.lit, [0b1110, 0]);
         assert_eq!((frame.silhouettes.len(), frame.quads.len(), frame.corners.len()), (3, 3, 3));
         assert_eq!(frame.extrude_args, [DispatchArgs { x: 1, y: 1, z: 1 }; 2]);
-        assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [0, 18, 36]);
+        assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [0, 18, 36, 0]);
     }
 
     #[test]
@@ -237,6 +237,6 @@ mod tests {
         assert_eq!(frame.counters, Counters::default());
         assert_eq!(frame.recheck_args, [DispatchArgs { x: 0, y: 0, z: 1 }]);
         assert_eq!(frame.refine_args, [DispatchArgs { x: 0, y: 0, z: 1 }; 2]);
-        assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [0; 3]);
+        assert_eq!(frame.draw_args.map(|draw| draw.vertex_count), [0; 4]);
     }
 }

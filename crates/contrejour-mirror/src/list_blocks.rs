@@ -1,6 +1,6 @@
 //! Lists the blocks of faces and of edges whose casters cast for the view.
 
-use contrejour_layout::{CasterLight, Counters, LightView, WorkItem};
+use contrejour_layout::{BLOCK_MASKED, CasterLight, Counters, LightView, WorkItem};
 
 /// The stage `list_blocks`: blocks of all casters to the work items of those that cast.
 pub struct ListBlocks<'a> {
@@ -12,7 +12,7 @@ pub struct ListBlocks<'a> {
     pub face_blocks: &'a [WorkItem],
     /// Blocks of edges of all casters.
     pub edge_blocks: &'a [WorkItem],
-    /// Those whose caster casts: `counters.face_items` records.
+    /// Those whose caster casts: `counters.face_items` records from the front, and `counters.masked_items` from the back.
     pub face_items: &'a mut [WorkItem],
     /// Those whose caster casts: `counters.edge_items` records.
     pub edge_items: &'a mut [WorkItem],
@@ -36,7 +36,13 @@ impl ListBlocks<'_> {
         };
         let faces = &self.face_blocks[..self.view.face_block_count as usize];
         let edges = &self.edge_blocks[..self.view.edge_block_count as usize];
-        list(faces, self.face_items, &mut self.counters.face_items);
+        let (masked, plain): (Vec<WorkItem>, Vec<WorkItem>) =
+            faces.iter().partition(|block| block.kind == BLOCK_MASKED);
+        list(&plain, self.face_items, &mut self.counters.face_items);
+        for block in masked.iter().filter(casts) {
+            self.counters.masked_items += 1;
+            self.face_items[faces.len() - self.counters.masked_items as usize] = *block;
+        }
         list(edges, self.edge_items, &mut self.counters.edge_items);
     }
 }

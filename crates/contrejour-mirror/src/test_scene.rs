@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Edge, Face, INCIDENCE_LIST, INCIDENCE_NONE, LightView, WorkItem, incidence,
+    BLOCK_BY_POSITIONS, BLOCK_SIZE, Caster, CasterLight, Edge, Face, INCIDENCE_LIST, INCIDENCE_NONE, LightView,
+    WorkItem, incidence,
 };
 use glam::{Mat4, Vec3, Vec4};
 
@@ -46,7 +47,7 @@ impl TestScene {
         let topology = self.topology();
         let caster = self.caster(&topology);
         let face_items: Vec<_> =
-            items(caster.face_count).into_iter().map(|item| WorkItem { by_positions: 1, ..item }).collect();
+            items(caster.face_count).into_iter().map(|item| WorkItem { kind: BLOCK_BY_POSITIONS, ..item }).collect();
         let edge_items = items(caster.edge_count);
         let positions: Vec<u32> = self.positions.iter().flatten().map(|value| value.to_bits()).collect();
         let faces: Vec<_> = self.faces.iter().map(|&[a, b, c]| Face { a, b, c }).collect();

@@ -1,6 +1,8 @@
 //! The four tiers of facing against exact arithmetic, on random and on hostile faces.
 
-use contrejour_layout::{Caster, CasterLight, Counters, Face, FaceRef, LightView, RecheckWord, WorkItem};
+use contrejour_layout::{
+    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, Caster, CasterLight, Counters, Face, FaceRef, LightView, RecheckWord, WorkItem,
+};
 use contrejour_mesh::FacePlanes;
 use contrejour_mirror::{ClassifyFaces, RecheckFaces, RefineFaces, ResolveFaces};
 use num_bigint::{BigInt, Sign};
@@ -67,10 +69,10 @@ impl OneFace {
         }
     }
 
-    fn classify(&mut self, by_positions: bool) {
+    fn classify(&mut self, kind: u32) {
         ClassifyFaces {
             view: &view(),
-            face_items: &[WorkItem { by_positions: by_positions.into(), ..Default::default() }],
+            face_items: &[WorkItem { kind, ..Default::default() }],
             casters: &self.casters,
             caster_lights: &self.caster_lights,
             planes: &self.planes.planes,
@@ -130,7 +132,7 @@ impl OneFace {
 fn decide(case: &Case) -> Decision {
     let mut face = OneFace::new(case);
     let fits = face.planes.block_fits(0);
-    face.classify(!fits);
+    face.classify(if fits { BLOCK_BY_PLANES } else { BLOCK_BY_POSITIONS });
     let by_plane = face.counters.recheck_words == 0;
     face.recheck();
     let undecided = face.lit;
@@ -144,7 +146,7 @@ fn decide(case: &Case) -> Decision {
 
     // Positions alone decide alike.
     let mut by_positions = OneFace::new(case);
-    by_positions.classify(true);
+    by_positions.classify(BLOCK_BY_POSITIONS);
     by_positions.recheck();
     by_positions.resolve();
     assert_eq!(face.lit, by_positions.lit, "planes and positions differ on {case:?}");

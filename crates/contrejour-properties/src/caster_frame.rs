@@ -1,6 +1,8 @@
 //! The CPU twins of all compute stages on a made-up caster.
 
-use contrejour_layout::{BLOCK_SIZE, Caster as CasterRecord, CasterLight, WorkItem};
+use contrejour_layout::{
+    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, Caster as CasterRecord, CasterLight, WorkItem,
+};
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_mirror::{FrameInputs, FrameOutputs, run_frame};
 use contrejour_plan::{Light, LightKind, NearOne, ShadowSettings, View, ViewCounts, caster_light, views};
@@ -31,9 +33,10 @@ impl Caster {
         };
         let blocks = |count: u32| 0..count.div_ceil(BLOCK_SIZE);
         let planes = topology.face_planes();
-        let face_item = |block| WorkItem { caster: 0, block, by_positions: (!planes.block_fits(block)).into() };
+        let kind = |block| if planes.block_fits(block) { BLOCK_BY_PLANES } else { BLOCK_BY_POSITIONS };
+        let face_item = |block| WorkItem { caster: 0, block, kind: kind(block) };
         let face_items: Vec<_> = blocks(record.face_count).map(face_item).collect();
-        let edge_item = |block| WorkItem { caster: 0, block, by_positions: 0 };
+        let edge_item = |block| WorkItem { caster: 0, block, kind: 0 };
         let edge_items: Vec<_> = blocks(record.edge_count).map(edge_item).collect();
         let counts = ViewCounts {
             casters: 1,

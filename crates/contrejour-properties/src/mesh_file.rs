@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use contrejour_mesh::{
-    BuildOptions, MeshFile, ReadFileError, TexturedPart, TopologyAwareMesh, TriangleMesh, load_bytes,
+    BuildOptions, MaterialPart, MeshFile, ReadFileError, TopologyAwareMesh, TriangleMesh, load_bytes,
 };
 use contrejour_scene::{Bounds, Scene};
 
@@ -111,13 +111,16 @@ fn check_mesh(mesh: &TriangleMesh) {
 
 fn check_textures(mesh: &TriangleMesh) {
     let coordinates = &mesh.texture_coordinates;
-    let count = if mesh.textured_parts.is_empty() { 0 } else { mesh.positions.len() };
-    assert_eq!(coordinates.len(), count, "texture coordinates");
+    let count = |is_there: bool| if is_there { mesh.positions.len() } else { 0 };
+    assert_eq!(coordinates.len(), count(mesh.parts.iter().any(|part| part.texture.is_some())), "texture coordinates");
+    assert_eq!(mesh.alphas.len(), count(mesh.cut_parts().next().is_some()), "alphas");
+    assert!(mesh.alphas.iter().all(|alpha| (0.0..=1.0).contains(alpha)), "an alpha is out of its range");
     assert!(coordinates.as_flattened().iter().all(|number| number.is_finite()), "a texture coordinate is not finite");
     let mut next = 0;
-    for TexturedPart { triangles, .. } in &mesh.textured_parts {
+    for MaterialPart { triangles, alpha_cutoff, .. } in &mesh.parts {
         let is_in_order = next <= triangles.start && triangles.start <= triangles.end;
-        assert!(is_in_order && triangles.end as usize <= mesh.triangles.len(), "a textured part is out of order");
+        assert!(is_in_order && triangles.end as usize <= mesh.triangles.len(), "a part is out of order");
+        assert!(alpha_cutoff.is_none_or(|cutoff| cutoff.is_finite() && cutoff > 0.0), "a cutoff is out of its range");
         next = triangles.end;
     }
 }
@@ -141,7 +144,7 @@ mod tests {
             load_bytes(stl, Path::new("any.stl"), &|_| unreachable!("it is alone")).expect("a good file")
         };
         assert_eq!(check_loaded(good()), Loaded { vertices: 3, triangles: 1 });
-        let faults: [Planted<MeshFile>; 11] = [
+        let faults: [Planted<MeshFile>; 14] = [
             ("a position", |file| file.meshes[0].positions[1][2] = f32::NAN),
             ("a normal", |file| file.meshes[0].normals[2] = [0.0; 3]),
             ("a colour", |file| file.meshes[0].colors[0][1] = 1.5),
@@ -149,11 +152,21 @@ mod tests {
             ("a triangle names", |file| file.meshes[0].triangles[0][0] = 3),
             ("left == right", |file| file.meshes[0].colors.truncate(2)),
             ("texture coordinates", |file| file.meshes[0].texture_coordinates.push([0.5; 2])),
-            ("a textured part", |file| {
+            ("a part is", |file| {
                 let image = EncodedImage { place: String::new(), bytes: Vec::new() };
                 let texture = Texture { image: image.into(), wrap: Default::default(), filter: Default::default() };
                 file.meshes[0].texture_coordinates = vec![[0.5; 2]; 3];
-                file.meshes[0].textured_parts.push(TexturedPart { triangles: 0..2, texture: texture.into() });
+                let texture = Some(texture.into());
+                file.meshes[0].parts.push(MaterialPart { triangles: 0..2, texture, alpha_cutoff: None });
+            }),
+            ("alphas", |file| file.meshes[0].alphas = vec![1.0; 3]),
+            ("an alpha", |file| {
+                file.meshes[0].alphas = vec![1.0, f32::NAN, 1.0];
+                file.meshes[0].parts.push(MaterialPart { triangles: 0..1, texture: None, alpha_cutoff: Some(0.5) });
+            }),
+            ("a cutoff", |file| {
+                file.meshes[0].alphas = vec![1.0; 3];
+                file.meshes[0].parts.push(MaterialPart { triangles: 0..1, texture: None, alpha_cutoff: Some(-0.5) });
             }),
             ("a node has mesh", |file| file.nodes[0].mesh = 1),
             ("a node stands", |file| file.nodes[0].world_from_object.w_axis.x = f64::INFINITY),

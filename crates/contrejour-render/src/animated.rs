@@ -34,7 +34,7 @@ pub enum AnimationError {
     Deform(#[from] DeformError),
 }
 
-/// A caster whose vertices move against each other.
+/// What moves the vertices of a mesh that casts against each other.
 #[derive(Debug)]
 pub(crate) struct DeformingCaster {
     handle: DeformHandle,
@@ -89,8 +89,8 @@ impl Renderer {
         poses: &[PartPose],
     ) -> Result<Self, NewRendererError> {
         let new_casters = |gpu: &Gpu, local: &LocalSpace| -> Result<Casters, NewRendererError> {
-            let topology = |mesh| Some(meshes.deforming(mesh)?.topology(meshes.rest_mesh(mesh)?));
-            let mut casters = Casters::with_topologies(scene, local, topology)?;
+            let deforming = |mesh| Some((&**meshes.deforming(mesh)?, meshes.rest_mesh(mesh)?));
+            let mut casters = Casters::with_deforming(scene, local, deforming)?;
             casters.add_deforming(gpu, scene, meshes)?;
             casters.pose(gpu, scene, poses, local)?;
             Ok(casters)
@@ -119,10 +119,9 @@ impl Renderer {
         self.casters.pose(&self.gpu, scene, poses, &self.local)?;
         let mut bytes = 0;
         for ((index, pose), draw) in moving(scene, poses).zip(0..) {
-            let caster = &self.casters.placed[draw];
-            let deformed = caster.deforming.as_ref().map(|deforming| {
+            let deformed = self.casters.deforming[index].as_ref().map(|deforming| {
                 let normals = deforming.normals.at(&deforming.posed, &deforming.triangles);
-                (self.casters.positions(caster), normals)
+                (self.casters.positions(index), normals)
             });
             let posed = PosedDraw { mesh: &scene.meshes[index].mesh, pose, local: &self.local, deformed };
             bytes += self.meshes.pose(&self.gpu, draw, &posed);
@@ -140,15 +139,16 @@ fn moving<'a>(scene: &'a Scene, poses: &'a [PartPose]) -> impl Iterator<Item = (
 impl Casters {
     /// Gives the deforming meshes of a scene to a deformer, where there are any.
     fn add_deforming(&mut self, gpu: &Gpu, scene: &Scene, meshes: &dyn DeformingMeshes) -> Result<(), AnimationError> {
-        let with_triangles = |&index: &usize| !scene.meshes[index].mesh.triangles.is_empty();
-        let indices = (0..scene.meshes.len()).filter(with_triangles);
-        for (index, caster) in indices.zip(&mut self.placed) {
+        for (index, placed) in scene.meshes.iter().enumerate() {
             let (Some(mesh), Some(rest)) = (meshes.deforming(index), meshes.rest_mesh(index)) else { continue };
+            if placed.mesh.triangles.is_empty() {
+                continue;
+            }
             let deformer = match &mut self.deformer {
                 Some(deformer) => deformer,
                 none => none.insert(Deformer::new(&gpu.device)?),
             };
-            caster.deforming = Some(DeformingCaster {
+            self.deforming[index] = Some(DeformingCaster {
                 handle: deformer.add(Arc::clone(mesh))?,
                 mesh: Arc::clone(mesh),
                 triangles: rest.triangles.clone(),
@@ -162,9 +162,9 @@ impl Casters {
     /// Moves what moves.
     fn pose(&mut self, gpu: &Gpu, scene: &Scene, poses: &[PartPose], local: &LocalSpace) -> Result<(), AnimationError> {
         let mut inputs = Vec::new();
-        for ((_, pose), caster) in moving(scene, poses).zip(&mut self.placed) {
-            caster.local_from_object = local.local_from_world() * pose.world_from_object;
-            if let Some(deforming) = &mut caster.deforming {
+        for (index, pose) in moving(scene, poses) {
+            self.place(index, &(local.local_from_world() * pose.world_from_object));
+            if let Some(deforming) = &mut self.deforming[index] {
                 deforming.posed = deforming.mesh.posed(pose);
                 inputs.push(DeformInput {
                     caster: deforming.handle,
@@ -180,9 +180,9 @@ impl Casters {
         Ok(())
     }
 
-    /// Where the positions of a caster are.
-    pub fn positions(&self, caster: &crate::casters::Caster) -> Positions {
-        let deformed = caster.deforming.as_ref().zip(self.deformer.as_ref());
+    /// Where the positions of a mesh of the scene are.
+    pub fn positions(&self, scene_mesh: usize) -> Positions {
+        let deformed = self.deforming[scene_mesh].as_ref().zip(self.deformer.as_ref());
         deformed.and_then(|(deforming, deformer)| deformer.positions(deforming.handle)).unwrap_or_default()
     }
 }

@@ -1,54 +1,48 @@
-//! The meshes of a scene that cast, with their topology.
+//! What casts in a scene, and where it stands.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::ops::Range;
 use std::sync::Arc;
 
 use contrejour_gpu::{
     AddMeshError, CasterError, CasterHandle, CasterInput, CountersError, Deformer, LightHandle, NewShadowsError,
     PrepareError, ShadowLightError, ShadowOptions, Shadows, ViewChoice, VisibilityKind,
 };
-use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError, TriangleMesh};
+use contrejour_mesh::{DeformingMesh, MaskedMesh, TopologyAwareMesh, TriangleMesh};
 use contrejour_plan::{Eye, Light, LightKind, Outputs, ShadowSettings};
-use contrejour_scene::{Scene, SceneMesh};
+use contrejour_scene::Scene;
 use glam::DMat4;
 
 use crate::animated::DeformingCaster;
+use crate::caster_meshes::{CasterMesh, CasterMeshError, CasterMeshes};
 use crate::{Gpu, LocalSpace};
 
-/// What casts in a scene. Each mesh has one topology, however often it stands there.
+/// What casts in a scene. Each mesh is made once, however often it stands there.
 #[derive(Debug)]
 pub(crate) struct Casters {
-    pub topologies: Vec<Arc<TopologyAwareMesh>>,
+    pub meshes: Vec<CasterMesh>,
     pub placed: Vec<Caster>,
-    /// For each mesh of the scene, its index in `placed`, where it casts.
-    of_mesh: Vec<Option<usize>>,
+    /// For each mesh of the scene, those of `placed` that it is: one for what no mask cuts, one for each part that one does.
+    of_mesh: Vec<Range<usize>>,
+    /// For each mesh of the scene, what moves its vertices against each other.
+    pub deforming: Vec<Option<DeformingCaster>>,
     /// None where no mesh deforms.
     pub deformer: Option<Deformer>,
     /// Bytes that poses uploaded and no frame has counted yet.
     pub pose_bytes: u64,
 }
 
-/// A mesh that throws a shadow.
+/// Triangles that throw a shadow, where they stand.
 #[derive(Debug)]
 pub(crate) struct Caster {
     /// Its name in the scene.
     pub name: String,
-    /// Index of its topology.
+    /// Index of its triangles.
     pub mesh: usize,
     pub local_from_object: DMat4,
-    /// What moves its vertices against each other.
-    pub deforming: Option<DeformingCaster>,
-}
-
-/// A mesh that casts has no topology.
-#[derive(Debug, thiserror::Error)]
-#[error("mesh {mesh:?} cannot cast a shadow")]
-pub struct CasterTopologyError {
-    /// Name of the mesh in the scene.
-    pub mesh: String,
-    /// What is wrong with it.
-    pub source: TopologyError,
+    /// The mesh of the scene that it is, or is a part of.
+    scene_mesh: usize,
 }
 
 /// Why the shadows of a scene cannot be made.
@@ -90,57 +84,79 @@ pub(crate) struct CastShadows {
 }
 
 impl Casters {
-    /// Builds the topology of each mesh that casts.
-    pub fn new(scene: &Scene, local: &LocalSpace) -> Result<Self, CasterTopologyError> {
-        Self::with_topologies(scene, local, |_| None)
+    /// Makes each mesh that casts.
+    pub fn new(scene: &Scene, local: &LocalSpace) -> Result<Self, CasterMeshError> {
+        Self::with_deforming(scene, local, |_| None)
     }
 
-    /// The same with other topologies of some meshes, by their index in the scene.
-    pub fn with_topologies(
+    /// The same where some meshes of the scene, by index, are poses of others, which are what casts.
+    pub fn with_deforming<'a>(
         scene: &Scene,
         local: &LocalSpace,
-        other_topology: impl Fn(usize) -> Option<Result<TopologyAwareMesh, TopologyError>>,
-    ) -> Result<Self, CasterTopologyError> {
+        deforming: impl Fn(usize) -> Option<(&'a DeformingMesh, &'a TriangleMesh)>,
+    ) -> Result<Self, CasterMeshError> {
         let mut casters = Self {
-            topologies: Vec::new(),
+            meshes: Vec::new(),
             placed: Vec::new(),
-            of_mesh: vec![None; scene.meshes.len()],
+            of_mesh: Vec::new(),
+            deforming: scene.meshes.iter().map(|_| None).collect(),
             deformer: None,
             pose_bytes: 0,
         };
-        let mut known = HashMap::new();
-        let casting = |placed: &SceneMesh| placed.casts && !placed.mesh.triangles.is_empty();
-        for (index, placed) in scene.meshes.iter().enumerate().filter(|(_, placed)| casting(placed)) {
-            let mesh = match known.entry(Arc::as_ptr(&placed.mesh)) {
-                Entry::Occupied(known) => *known.get(),
-                Entry::Vacant(place) => {
-                    let TriangleMesh { positions, triangles, .. } = &*placed.mesh;
-                    let topology = other_topology(index)
-                        .unwrap_or_else(|| TopologyAwareMesh::build(positions, triangles, &BuildOptions::default()))
-                        .map_err(|source| CasterTopologyError { mesh: placed.name.clone(), source })?;
-                    casters.topologies.push(Arc::new(topology));
-                    *place.insert(casters.topologies.len() - 1)
-                }
-            };
-            casters.of_mesh[index] = Some(casters.placed.len());
-            casters.placed.push(Caster {
-                name: placed.name.clone(),
-                mesh,
-                local_from_object: local.local_from_world() * placed.world_from_object,
-                deforming: None,
-            });
+        let mut makers = CasterMeshes::default();
+        let mut known: HashMap<_, Range<usize>> = HashMap::new();
+        for (scene_mesh, placed) in scene.meshes.iter().enumerate() {
+            let first = casters.placed.len();
+            if placed.casts {
+                let meshes = match known.entry(Arc::as_ptr(&placed.mesh)) {
+                    Entry::Occupied(known) => known.get().clone(),
+                    Entry::Vacant(place) => {
+                        let made = match deforming(scene_mesh) {
+                            Some((deforming, rest)) => makers.make(&placed.name, rest, Some(deforming))?,
+                            None => makers.make(&placed.name, &placed.mesh, None)?,
+                        };
+                        let first = casters.meshes.len();
+                        casters.meshes.extend(made);
+                        place.insert(first..casters.meshes.len()).clone()
+                    }
+                };
+                let local_from_object = local.local_from_world() * placed.world_from_object;
+                casters.placed.extend(meshes.map(|mesh| Caster {
+                    name: placed.name.clone(),
+                    mesh,
+                    local_from_object,
+                    scene_mesh,
+                }));
+            }
+            casters.of_mesh.push(first..casters.placed.len());
         }
         Ok(casters)
     }
 
-    /// The caster that a mesh of the scene is, where it casts.
-    pub fn of_mesh(&mut self, mesh: usize) -> Option<&mut Caster> {
-        self.placed.get_mut((*self.of_mesh.get(mesh)?)?)
+    /// Moves all that a mesh of the scene casts with.
+    pub fn place(&mut self, scene_mesh: usize, local_from_object: &DMat4) {
+        if let Some(casters) = self.of_mesh.get(scene_mesh) {
+            self.placed[casters.clone()].iter_mut().for_each(|caster| caster.local_from_object = *local_from_object);
+        }
     }
 
-    /// The topology of a caster.
+    /// The triangles of a caster.
     pub fn topology(&self, caster: &Caster) -> &TopologyAwareMesh {
-        &self.topologies[caster.mesh]
+        self.meshes[caster.mesh].topology()
+    }
+
+    /// The masked parts that a mesh of the scene casts with, in its order.
+    pub fn masked_parts(&self, scene_mesh: usize) -> impl Iterator<Item = &Arc<MaskedMesh>> {
+        let placed = self.of_mesh.get(scene_mesh).map_or(&[][..], |casters| &self.placed[casters.clone()]);
+        placed.iter().filter_map(|caster| match &self.meshes[caster.mesh] {
+            CasterMesh::Masked(masked) => Some(masked),
+            CasterMesh::Uncut(_) => None,
+        })
+    }
+
+    /// What moves the vertices of a caster against each other.
+    pub fn deforming(&self, caster: &Caster) -> Option<&DeformingCaster> {
+        self.deforming[caster.scene_mesh].as_ref()
     }
 
     /// Edges of all casters.
@@ -153,13 +169,13 @@ impl CastShadows {
     /// Without a light.
     pub fn new(gpu: &Gpu, casters: &Casters) -> Result<Self, CastShadowsError> {
         let mut shadows = Shadows::new(&gpu.device)?;
-        let meshes = casters.topologies.iter().map(|topology| shadows.add_mesh(Arc::clone(topology)));
+        let meshes = casters.meshes.iter().map(|mesh| mesh.add_to(&mut shadows));
         let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
         let handles = (casters.placed.iter()).map(|caster| {
             shadows.add_caster(&CasterInput {
                 mesh: meshes[caster.mesh],
                 world_from_object: caster.local_from_object,
-                positions: casters.positions(caster),
+                positions: casters.positions(caster.scene_mesh),
             })
         });
         let handles = handles.collect::<Result<_, _>>()?;

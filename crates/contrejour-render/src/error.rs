@@ -4,7 +4,8 @@ use contrejour_gpu::CountersError;
 use contrejour_scene::SceneLightError;
 
 use crate::animated::AnimationError;
-use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
+use crate::caster_meshes::CasterMeshError;
+use crate::casters::{CastShadowsError, PrepareShadowsError};
 use crate::gpu::DeviceFault;
 use crate::readback::ReadError;
 use crate::scene_meshes::UploadMeshesError;
@@ -26,9 +27,9 @@ pub enum NewRendererError {
     /// A mesh does not fit, or a texture is not decoded.
     #[error(transparent)]
     Upload(#[from] UploadMeshesError),
-    /// A mesh that casts has no topology.
+    /// A mesh that casts has no topology, or a mask does not fit it.
     #[error(transparent)]
-    Topology(#[from] CasterTopologyError),
+    CasterMesh(#[from] CasterMeshError),
     /// The shadow settings, a mesh or the device do not allow shadows.
     #[error(transparent)]
     Shadows(#[from] CastShadowsError),

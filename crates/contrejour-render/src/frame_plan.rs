@@ -1,6 +1,6 @@
 //! What a frame of a scene does, known before there is a device.
 
-use contrejour_gpu::{mesh_facts, mesh_pieces};
+use contrejour_gpu::mesh_pieces;
 use contrejour_plan::{
     BufferKind, Capacity, CascadeError, CasterFacts, DeviceFacts, FramePlan, ObjectBox, Outputs, PlanError, PlanInput,
     SceneFacts, frame_views, shared_plans,
@@ -8,7 +8,8 @@ use contrejour_plan::{
 use contrejour_scene::{Scene, SceneLight};
 
 use crate::LocalSpace;
-use crate::casters::{CasterTopologyError, Casters};
+use crate::caster_meshes::{CasterMesh, CasterMeshError, mask_facts_of};
+use crate::casters::Casters;
 
 /// Why there is no plan of a scene.
 #[derive(Debug, thiserror::Error)]
@@ -16,9 +17,9 @@ pub enum FramePlanError {
     /// A light of the scene is no light, or its cascades and the camera do not go together.
     #[error(transparent)]
     Light(#[from] CascadeError),
-    /// A mesh that casts has no topology.
+    /// A mesh that casts has no topology, or a mask does not fit it.
     #[error(transparent)]
-    Topology(#[from] CasterTopologyError),
+    CasterMesh(#[from] CasterMeshError),
     /// The device can't hold what the frame needs.
     #[error(transparent)]
     Plan(#[from] PlanError),
@@ -54,12 +55,12 @@ pub fn frame_plans(scene: &Scene, device: &DeviceFacts) -> Result<Vec<LightPlan>
     Ok(casting().zip(plans).map(|((light, _), plan)| LightPlan { light, plan }).collect())
 }
 
-fn scene_facts(scene: &Scene, local: &LocalSpace, device: &DeviceFacts) -> Result<SceneFacts, CasterTopologyError> {
+fn scene_facts(scene: &Scene, local: &LocalSpace, device: &DeviceFacts) -> Result<SceneFacts, CasterMeshError> {
     let casters = Casters::new(scene, local)?;
     Ok(SceneFacts {
-        meshes: casters.topologies.iter().map(|topology| mesh_facts(topology)).collect(),
-        pieces: (casters.topologies.iter().enumerate())
-            .flat_map(|(mesh, topology)| mesh_pieces(topology, mesh, device))
+        meshes: casters.meshes.iter().map(CasterMesh::facts).collect(),
+        pieces: (casters.meshes.iter().enumerate())
+            .flat_map(|(mesh, of_caster)| mesh_pieces(of_caster.topology(), mesh, device))
             .collect(),
         casters: (casters.placed.iter().enumerate())
             .map(|(slot, caster)| {
@@ -79,5 +80,6 @@ fn scene_facts(scene: &Scene, local: &LocalSpace, device: &DeviceFacts) -> Resul
             })
             .collect(),
         receivers: scene.meshes.iter().filter(|placed| !placed.casts).map(|placed| placed.name.clone()).collect(),
+        masks: mask_facts_of(&casters.meshes),
     })
 }

@@ -8,6 +8,7 @@
 //! gives them and what that costs, and the picture that any visibility makes.
 
 mod animated;
+mod caster_meshes;
 mod casters;
 mod error;
 mod frame_plan;
@@ -43,7 +44,8 @@ mod tone_map;
 mod views;
 
 pub use animated::{AnimationError, DeformingMeshes};
-pub use casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
+pub use caster_meshes::CasterMeshError;
+pub use casters::{CastShadowsError, PrepareShadowsError};
 pub use error::{DrawError, NewRendererError};
 pub use frame_plan::{FramePlanError, LightPlan, frame_plans};
 pub use gpu::{DeviceFault, Gpu, OpenGpuError};

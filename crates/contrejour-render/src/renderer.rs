@@ -19,7 +19,7 @@ use crate::measurements::{CounterLog, Measurements};
 use crate::picture_pass::PicturePass;
 use crate::readback::{ReadError, read_picture};
 use crate::scene_lights::{MoveError, SceneLights};
-use crate::scene_meshes::SceneMeshes;
+use crate::scene_meshes::{SceneMeshes, has_cuts};
 use crate::scene_pass::ScenePass;
 use crate::stage_timer::StageTimer;
 use crate::targets::{COLOR_FORMAT, SizeTooLarge, check_size, target_texture};
@@ -90,7 +90,7 @@ impl Renderer {
         let mut cast = CastShadows::new(&gpu, &casters)?;
         let lights = SceneLights::new(scene, &local, &mut cast)?;
         cast.prepare(&gpu, &casters, lights.casting(), &local.camera(&scene.camera).as_eye(scene.aspect()))?;
-        let mut pass = ScenePass::new(&gpu, lights.count());
+        let mut pass = ScenePass::new(&gpu, lights.count(), has_cuts(scene));
         pass.prepare(&gpu, &cast, &lights.handles);
         let meshes = SceneMeshes::new(&gpu, scene, &local, pass.surface_layout())?;
         let targets = LightTargets::new(&gpu, scene.size);
@@ -145,9 +145,7 @@ impl Renderer {
         if !world_from_object.is_finite() {
             return Err(MoveError::NotFinite { index });
         }
-        if let Some(caster) = self.casters.of_mesh(index) {
-            caster.local_from_object = self.local.local_from_world() * world_from_object;
-        }
+        self.casters.place(index, &(self.local.local_from_world() * world_from_object));
         self.moved_bytes += self.meshes.place(&self.gpu, index, &self.local, world_from_object);
         Ok(())
     }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use contrejour_gpu::Positions;
-use contrejour_mesh::{PartPose, Texture, TriangleMesh};
+use contrejour_mesh::{MaterialPart, PartPose, Texture, TriangleMesh};
 use contrejour_scene::{Scene, SceneMesh, TextureError};
 use glam::{DMat4, DVec3};
 
@@ -36,17 +36,40 @@ struct MeshBuffers {
     positions: (wgpu::Buffer, u64),
     attributes: wgpu::Buffer,
     indices: wgpu::Buffer,
-    /// Which indices are drawn with which bind group of `surfaces`.
-    parts: Vec<(Range<u32>, usize)>,
+    parts: Vec<DrawnPart>,
     /// The mesh's object space from the space of its vertex buffer.
     object_from_vertex: DMat4,
+}
+
+/// Which indices are drawn with which bind group of `surfaces`.
+#[derive(Clone, Debug, PartialEq)]
+struct DrawnPart {
+    indices: Range<u32>,
+    group: usize,
+    is_cut: bool,
+}
+
+/// What to draw of the meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Parts {
+    All,
+    /// What no alpha cuts.
+    Uncut,
+    /// What alpha cuts.
+    Cut,
+}
+
+/// Whether alpha cuts anything in a scene.
+pub(crate) fn has_cuts(scene: &Scene) -> bool {
+    scene.meshes.iter().any(|placed| placed.mesh.cut_parts().next().is_some())
 }
 
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct VertexAttributes {
     normal: [f32; 3],
-    color: [f32; 3],
+    /// And alpha, relative to the cutoff where it cuts.
+    color: [f32; 4],
     texture_coordinates: [f32; 2],
 }
 
@@ -60,7 +83,7 @@ pub(crate) const VERTEX_LAYOUTS: [wgpu::VertexBufferLayout<'static>; 2] = [
     wgpu::VertexBufferLayout {
         array_stride: size_of::<VertexAttributes>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x3, 3 => Float32x2],
+        attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x4, 3 => Float32x2],
     },
 ];
 
@@ -158,8 +181,8 @@ impl SceneMeshes {
         };
         let mut on_device = SceneTextures::new(gpu);
         let mut surfaces = vec![bind(&on_device.white)];
-        for texture in textures.textures {
-            surfaces.push(bind(&on_device.get(gpu, texture)?));
+        for (texture, cutoff) in textures.textures {
+            surfaces.push(bind(&on_device.get(gpu, texture, cutoff)?));
         }
         let surface_stride = surface_stride as u32;
         Ok(Self { buffers, draws, draw_of_mesh, surface_records, surface_buffer, surfaces, surface_stride })
@@ -196,16 +219,25 @@ impl SceneMeshes {
         size_of::<Surface>()
     }
 
-    /// Draws everything; the surfaces go to bind group `surface_group`.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, surface_group: u32) {
+    /// Whether alpha cuts anything.
+    pub fn has_cuts(&self) -> bool {
+        self.buffers.iter().flat_map(|buffers| &buffers.parts).any(|part| part.is_cut)
+    }
+
+    /// Draws some parts of all meshes; the surfaces go to bind group `surface_group`.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, surface_group: u32, parts: Parts) {
+        let is_drawn = |part: &&DrawnPart| parts == Parts::All || part.is_cut == (parts == Parts::Cut);
         for (surface, &index) in (0u32..).zip(&self.draws) {
             let buffers = &self.buffers[index];
+            if !buffers.parts.iter().any(|part| is_drawn(&part)) {
+                continue;
+            }
             pass.set_vertex_buffer(0, buffers.positions.0.slice(buffers.positions.1..));
             pass.set_vertex_buffer(1, buffers.attributes.slice(..));
             pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
-            for (indices, group) in &buffers.parts {
-                pass.set_bind_group(surface_group, &self.surfaces[*group], &[surface * self.surface_stride]);
-                pass.draw_indexed(indices.clone(), 0, 0..1);
+            for part in buffers.parts.iter().filter(is_drawn) {
+                pass.set_bind_group(surface_group, &self.surfaces[part.group], &[surface * self.surface_stride]);
+                pass.draw_indexed(part.indices.clone(), 0, 0..1);
             }
         }
     }
@@ -237,48 +269,66 @@ impl MeshBuffers {
             positions: (upload("positions", bytemuck::cast_slice(&positions)), 0),
             attributes: upload("vertex attributes", bytemuck::cast_slice(&attributes)),
             indices: gpu.upload("indices", bytemuck::cast_slice(&mesh.triangles), wgpu::BufferUsages::INDEX),
-            parts: index_ranges(mesh, textures),
+            parts: drawn_parts(mesh, textures),
             object_from_vertex: DMat4::from_translation(center) * DMat4::from_scale(DVec3::splat(object_per_vertex)),
         })
     }
 }
 
-/// Textures in the order in which meshes name them, each once.
+/// Textures in the order in which meshes name them, each once; with the cutoff that smaller levels keep their coverage by.
 #[derive(Default)]
 struct TextureList<'a> {
-    textures: Vec<&'a Texture>,
-    groups: HashMap<*const Texture, usize>,
+    textures: Vec<(&'a Texture, Option<f32>)>,
+    groups: HashMap<(*const Texture, Option<u32>), usize>,
 }
 
 impl<'a> TextureList<'a> {
-    /// The bind group of a texture; the first is that of none.
-    fn group(&mut self, texture: &'a Arc<Texture>) -> usize {
-        *self.groups.entry(Arc::as_ptr(texture)).or_insert_with(|| {
-            self.textures.push(texture);
+    /// The bind group of a part's texture; the first is that of none.
+    fn group(&mut self, part: &'a MaterialPart, largest_alpha: f32) -> usize {
+        let Some(texture) = &part.texture else { return 0 };
+        let cutoff = part.alpha_cutoff.map(|cutoff| cutoff / largest_alpha);
+        *self.groups.entry((Arc::as_ptr(texture), cutoff.map(f32::to_bits))).or_insert_with(|| {
+            self.textures.push((texture, cutoff));
             self.textures.len()
         })
     }
 }
 
-/// The indices of all triangles, in order, and the bind group of each range's texture.
-fn index_ranges<'a>(mesh: &'a TriangleMesh, textures: &mut TextureList<'a>) -> Vec<(Range<u32>, usize)> {
-    let mut ranges = Vec::new();
+/// The indices of all triangles, in order, and what each range is drawn with.
+fn drawn_parts<'a>(mesh: &'a TriangleMesh, textures: &mut TextureList<'a>) -> Vec<DrawnPart> {
+    let largest_alpha = mesh.alphas.iter().copied().fold(0.0, f32::max);
+    let mut parts = Vec::new();
+    let mut push = |triangles: Range<u32>, group, is_cut| {
+        if !triangles.is_empty() {
+            parts.push(DrawnPart { indices: 3 * triangles.start..3 * triangles.end, group, is_cut });
+        }
+    };
     let mut next = 0;
-    for part in &mesh.textured_parts {
-        ranges.push((next..part.triangles.start, 0));
-        ranges.push((part.triangles.clone(), textures.group(&part.texture)));
+    for part in &mesh.parts {
+        push(next..part.triangles.start, 0, false);
+        push(part.triangles.clone(), textures.group(part, largest_alpha), part.alpha_cutoff.is_some());
         next = part.triangles.end;
     }
-    ranges.push((next..mesh.triangles.len() as u32, 0));
-    ranges.retain(|(triangles, _)| !triangles.is_empty());
-    ranges.into_iter().map(|(triangles, group)| (3 * triangles.start..3 * triangles.end, group)).collect()
+    push(next..mesh.triangles.len() as u32, 0, false);
+    parts
 }
 
 fn attributes(normals: &[[f32; 3]], mesh: &TriangleMesh) -> Vec<VertexAttributes> {
     let coordinates = mesh.texture_coordinates.iter().copied().chain(std::iter::repeat([0.0; 2]));
-    let attributes = normals.iter().zip(&mesh.colors).zip(coordinates);
+    let mut alphas = vec![1.0; mesh.colors.len()];
+    for (part, cutoff) in mesh.cut_parts() {
+        for &vertex in mesh.triangles[part.triangles.start as usize..part.triangles.end as usize].as_flattened() {
+            let vertex = vertex as usize;
+            alphas[vertex] = mesh.alphas.get(vertex).copied().unwrap_or(1.0) / cutoff;
+        }
+    }
+    let attributes = normals.iter().zip(&mesh.colors).zip(alphas).zip(coordinates);
     attributes
-        .map(|((&normal, &color), texture_coordinates)| VertexAttributes { normal, color, texture_coordinates })
+        .map(|(((&normal, &[red, green, blue]), alpha), texture_coordinates)| VertexAttributes {
+            normal,
+            color: [red, green, blue, alpha],
+            texture_coordinates,
+        })
         .collect()
 }
 
@@ -298,22 +348,37 @@ fn extent(mesh: &TriangleMesh) -> (DVec3, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use contrejour_mesh::{EncodedImage, TexturedPart};
+    use contrejour_mesh::EncodedImage;
 
     #[test]
     fn every_index_is_drawn_once() {
         let image = EncodedImage { place: String::new(), bytes: Vec::new() };
         let texture = Texture { image: image.into(), wrap: Default::default(), filter: Default::default() };
         let textures = [Arc::new(texture.clone()), Arc::new(texture)];
-        let part = |triangles, texture: usize| TexturedPart { triangles, texture: Arc::clone(&textures[texture]) };
-        let ranges = |textured_parts| {
-            let mesh = TriangleMesh { triangles: vec![[0; 3]; 9], textured_parts, ..TriangleMesh::default() };
-            index_ranges(&mesh, &mut TextureList::default())
+        let part = |triangles, texture: usize, alpha_cutoff| {
+            let texture = textures.get(texture).map(Arc::clone);
+            MaterialPart { triangles, texture, alpha_cutoff }
         };
-        assert_eq!(ranges(vec![]), [(0..27, 0)]);
-        assert_eq!(ranges(vec![part(0..9, 0)]), [(0..27, 1)]);
-        let between = ranges(vec![part(1..3, 1), part(3..4, 0), part(6..8, 1)]);
-        assert_eq!(between, [(0..3, 0), (3..9, 1), (9..12, 2), (12..18, 0), (18..24, 1), (24..27, 0)]);
+        let drawn = |parts| {
+            let mesh = TriangleMesh { triangles: vec![[0; 3]; 9], alphas: vec![1.0], parts, ..TriangleMesh::default() };
+            let drawn = drawn_parts(&mesh, &mut TextureList::default());
+            drawn.into_iter().map(|part| (part.indices, part.group, part.is_cut)).collect::<Vec<_>>()
+        };
+        assert_eq!(drawn(vec![]), [(0..27, 0, false)]);
+        assert_eq!(drawn(vec![part(0..9, 0, None)]), [(0..27, 1, false)]);
+        let between = drawn(vec![part(1..3, 1, None), part(3..4, 0, Some(0.5)), part(6..8, 1, None)]);
+        let expected = [
+            (0..3, 0, false),
+            (3..9, 1, false),
+            (9..12, 2, true),
+            (12..18, 0, false),
+            (18..24, 1, false),
+            (24..27, 0, false),
+        ];
+        assert_eq!(between, expected);
+        // One texture with two cutoffs has levels for each.
+        let cut = drawn(vec![part(0..3, 0, Some(0.5)), part(3..6, 0, Some(0.25)), part(6..9, 2, Some(0.5))]);
+        assert_eq!(cut, [(0..9, 1, true), (9..18, 2, true), (18..27, 0, true)]);
     }
 
     #[test]

@@ -7,8 +7,8 @@ use contrejour_gpu::{LightHandle, ViewChoice, VisibilityKind};
 use crate::Gpu;
 use crate::casters::CastShadows;
 use crate::frame_uniforms::{FrameBinding, FrameUniforms};
-use crate::scene_meshes::SceneMeshes;
-use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, depth_state, mesh_pipeline, scene_pipeline};
+use crate::scene_meshes::{Parts, SceneMeshes};
+use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, ScenePipelines, depth_state, mesh_pipeline};
 use crate::shaders::{AMBIENT, SHADE, UNSHADOWED};
 use crate::surface::surface_layout;
 use crate::surface_light::SurfaceLight;
@@ -24,7 +24,8 @@ type ShadeKind = Option<(VisibilityKind, ViewChoice)>;
 pub(crate) struct ScenePass {
     surface_layout: wgpu::BindGroupLayout,
     frame: FrameBinding,
-    ambient: wgpu::RenderPipeline,
+    ambient: ScenePipelines,
+    has_cuts: bool,
     shades: HashMap<ShadeKind, Shade>,
 }
 
@@ -38,8 +39,8 @@ struct Shade {
 }
 
 impl ScenePass {
-    /// For so many lights.
-    pub fn new(gpu: &Gpu, light_count: usize) -> Self {
+    /// For so many lights, and for meshes that alpha cuts or not.
+    pub fn new(gpu: &Gpu, light_count: usize, has_cuts: bool) -> Self {
         let surface_layout = surface_layout(&gpu.device);
         let frame = FrameBinding::new(gpu, light_count);
         let layouts = [Some(&frame.layout), Some(&surface_layout)];
@@ -47,9 +48,9 @@ impl ScenePass {
         let module = module(gpu, "ambient", AMBIENT.into());
         let entry_points = EntryPoints { vertex: "vertex_shade", fragment: "fragment_ambient" };
         // Where faces coincide the first one is seen; so it is when lights are added.
-        let depth = depth_state(wgpu::CompareFunction::Greater, true);
-        let ambient = mesh_pipeline(gpu, (&layout, &module), entry_points, &[RADIANCE_FORMAT.into()], depth);
-        Self { surface_layout, frame, ambient, shades: HashMap::new() }
+        let how = (wgpu::CompareFunction::Greater, has_cuts);
+        let ambient = ScenePipelines::new(gpu, (&layout, &module), entry_points, &[RADIANCE_FORMAT], how);
+        Self { surface_layout, frame, ambient, has_cuts, shades: HashMap::new() }
     }
 
     pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
@@ -79,15 +80,15 @@ impl ScenePass {
         lights: &[Option<LightHandle>],
         meshes: &SceneMeshes,
     ) {
-        pass.set_pipeline(&self.ambient);
         self.frame.bind(pass, FRAME_GROUP, 0);
-        meshes.draw(pass, SURFACE_GROUP);
+        self.ambient.draw(pass, meshes);
         for (index, light) in lights.iter().enumerate() {
             let shade = self.shades.get(&kind_of(cast, *light));
             let Some(pipeline) = shade.and_then(|shade| shade.adding[index % 2].as_ref()) else { continue };
             pass.set_pipeline(pipeline);
             self.bind(pass, cast, index, *light);
-            meshes.draw(pass, SURFACE_GROUP);
+            // Where alpha cuts there is no equal depth.
+            meshes.draw(pass, SURFACE_GROUP, Parts::All);
         }
     }
 
@@ -102,9 +103,9 @@ impl ScenePass {
     ) {
         let Some(shade) = self.shades.get(&kind_of(cast, Some(light))) else { return };
         let entry_points = EntryPoints { vertex: "vertex_shade", fragment: "fragment_show_visibility" };
-        pass.set_pipeline(&scene_pipeline(gpu, &shade.layout, &shade.module, entry_points, &[COLOR_FORMAT]));
+        let how = (wgpu::CompareFunction::GreaterEqual, self.has_cuts);
         self.bind(pass, cast, index, Some(light));
-        meshes.draw(pass, SURFACE_GROUP);
+        ScenePipelines::new(gpu, (&shade.layout, &shade.module), entry_points, &[COLOR_FORMAT], how).draw(pass, meshes);
     }
 
     fn bind(&self, pass: &mut wgpu::RenderPass<'_>, cast: &CastShadows, index: usize, light: Option<LightHandle>) {
@@ -147,7 +148,7 @@ impl Shade {
             };
             let entry_points = EntryPoints { vertex: "vertex_shade", fragment: "fragment_shade" };
             let depth = depth_state(wgpu::CompareFunction::Equal, false);
-            mesh_pipeline(gpu, (layout, module), entry_points, &[target], depth)
+            mesh_pipeline(gpu, (layout, module), entry_points, &[target], (depth, false))
         });
     }
 }

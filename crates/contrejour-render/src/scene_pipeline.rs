@@ -1,7 +1,7 @@
 //! Pipelines that draw the scene's meshes.
 
 use crate::Gpu;
-use crate::scene_meshes::VERTEX_LAYOUTS;
+use crate::scene_meshes::{Parts, SceneMeshes, VERTEX_LAYOUTS};
 use crate::targets::DEPTH_FORMAT;
 
 /// Bind groups of the modules that draw the scene's meshes.
@@ -15,27 +15,50 @@ pub(crate) struct EntryPoints {
     pub fragment: &'static str,
 }
 
-/// A pipeline that draws meshes against the reversed depth buffer, the nearest over all others.
-pub(crate) fn scene_pipeline(
-    gpu: &Gpu,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    entry_points: EntryPoints,
-    formats: &[wgpu::TextureFormat],
-) -> wgpu::RenderPipeline {
-    let targets: Vec<_> = formats.iter().map(|&format| format.into()).collect();
-    let depth = depth_state(wgpu::CompareFunction::GreaterEqual, true);
-    mesh_pipeline(gpu, (layout, module), entry_points, &targets, depth)
+/// Pipelines that fill the depth buffer: alpha cuts what they draw.
+#[derive(Debug)]
+pub(crate) struct ScenePipelines {
+    uncut: wgpu::RenderPipeline,
+    /// Where the scene has parts that alpha cuts.
+    cut: Option<wgpu::RenderPipeline>,
 }
 
-/// A pipeline that draws meshes. Both sides are drawn: meshes may be open, and wound as they like.
+impl ScenePipelines {
+    /// Draw meshes against the reversed depth buffer by a comparison.
+    pub fn new(
+        gpu: &Gpu,
+        (layout, module): (&wgpu::PipelineLayout, &wgpu::ShaderModule),
+        entry_points: EntryPoints,
+        formats: &[wgpu::TextureFormat],
+        (compare, has_cuts): (wgpu::CompareFunction, bool),
+    ) -> Self {
+        let targets: Vec<_> = formats.iter().map(|&format| format.into()).collect();
+        let depth = || depth_state(compare, true);
+        let pipeline = |cuts| mesh_pipeline(gpu, (layout, module), entry_points, &targets, (depth(), cuts));
+        Self { uncut: pipeline(false), cut: has_cuts.then(|| pipeline(true)) }
+    }
+
+    /// Draws everything; the other groups are bound.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, meshes: &SceneMeshes) {
+        pass.set_pipeline(&self.uncut);
+        meshes.draw(pass, SURFACE_GROUP, Parts::Uncut);
+        if let Some(cut) = &self.cut {
+            pass.set_pipeline(cut);
+            meshes.draw(pass, SURFACE_GROUP, Parts::Cut);
+        }
+    }
+}
+
+/// A pipeline that draws meshes, cut by alpha or not. Both sides are drawn: meshes may be open, and wound as they like.
 pub(crate) fn mesh_pipeline(
     gpu: &Gpu,
     (layout, module): (&wgpu::PipelineLayout, &wgpu::ShaderModule),
     entry_points: EntryPoints,
     targets: &[wgpu::ColorTargetState],
-    depth: wgpu::DepthStencilState,
+    (depth, cuts): (wgpu::DepthStencilState, bool),
 ) -> wgpu::RenderPipeline {
+    let constants = [("cuts", f64::from(u8::from(cuts)))];
+    let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     let targets: Vec<_> = targets.iter().cloned().map(Some).collect();
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(entry_points.fragment),
@@ -43,7 +66,7 @@ pub(crate) fn mesh_pipeline(
         vertex: wgpu::VertexState {
             module,
             entry_point: Some(entry_points.vertex),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: compilation_options.clone(),
             buffers: &VERTEX_LAYOUTS.map(Some),
         },
         primitive: wgpu::PrimitiveState::default(),
@@ -52,7 +75,7 @@ pub(crate) fn mesh_pipeline(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(entry_points.fragment),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options,
             targets: &targets,
         }),
         multiview_mask: None,

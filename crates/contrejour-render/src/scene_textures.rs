@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use contrejour_mesh::{EncodedImage, Texture, TextureFilter, TextureWrap};
+use contrejour_mesh::{EncodedImage, MaskLevel, Texture, TextureFilter, TextureWrap};
 use contrejour_scene::{TextureError, TextureReader};
 use image::{Rgba, RgbaImage};
 
@@ -17,7 +17,8 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 #[derive(Debug)]
 pub(crate) struct SceneTextures {
     reader: TextureReader,
-    images: HashMap<*const EncodedImage, wgpu::TextureView>,
+    /// By picture, and by the cutoff that its alpha is for.
+    images: HashMap<(*const EncodedImage, Option<u32>), wgpu::TextureView>,
     samplers: HashMap<([TextureWrap; 2], TextureFilter), wgpu::Sampler>,
     /// What stands where a surface has no texture: white.
     pub white: (wgpu::TextureView, wgpu::Sampler),
@@ -30,18 +31,24 @@ impl SceneTextures {
             reader: TextureReader::default(),
             images: HashMap::new(),
             samplers: HashMap::new(),
-            white: (upload(gpu, white), gpu.device.create_sampler(&wgpu::SamplerDescriptor::default())),
+            white: (upload(gpu, white, None), gpu.device.create_sampler(&wgpu::SamplerDescriptor::default())),
         }
     }
 
-    /// A texture's picture, decoded and uploaded where it is new, and its sampler.
-    pub fn get(&mut self, gpu: &Gpu, texture: &Texture) -> Result<(wgpu::TextureView, wgpu::Sampler), TextureError> {
-        let address = Arc::as_ptr(&texture.image);
-        let view = match self.images.get(&address) {
+    /// A texture's picture, decoded and uploaded where it is new, and its sampler. Smaller levels keep the share of texels
+    /// that a cutoff leaves.
+    pub fn get(
+        &mut self,
+        gpu: &Gpu,
+        texture: &Texture,
+        cutoff: Option<f32>,
+    ) -> Result<(wgpu::TextureView, wgpu::Sampler), TextureError> {
+        let key = (Arc::as_ptr(&texture.image), cutoff.map(f32::to_bits));
+        let view = match self.images.get(&key) {
             Some(view) => view.clone(),
             None => {
-                let view = upload(gpu, self.reader.read(&texture.image)?);
-                self.images.insert(address, view.clone());
+                let view = upload(gpu, self.reader.read(&texture.image)?, cutoff);
+                self.images.insert(key, view.clone());
                 view
             }
         };
@@ -50,7 +57,7 @@ impl SceneTextures {
     }
 }
 
-fn upload(gpu: &Gpu, picture: RgbaImage) -> wgpu::TextureView {
+fn upload(gpu: &Gpu, picture: RgbaImage, cutoff: Option<f32>) -> wgpu::TextureView {
     let (width, height) = picture.dimensions();
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("base colour"),
@@ -62,17 +69,30 @@ fn upload(gpu: &Gpu, picture: RgbaImage) -> wgpu::TextureView {
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
+    let share = cutoff.map(|cutoff| alpha_level(&picture).share_kept(cutoff));
     let mut next = Some(picture);
     for level in 0..texture.mip_level_count() {
-        let Some(texels) = next else { break };
+        let Some(mut texels) = next else { break };
+        let smaller = next_level(&texels);
+        if let Some((cutoff, share)) = cutoff.zip(share).filter(|_| level > 0) {
+            let mut alpha = alpha_level(&texels);
+            alpha.keep_coverage(cutoff, share);
+            texels.pixels_mut().zip(alpha.alphas).for_each(|(texel, alpha)| texel.0[3] = alpha);
+        }
         let (width, height) = texels.dimensions();
         let target = wgpu::TexelCopyTextureInfo { mip_level: level, ..texture.as_image_copy() };
         let rows = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         gpu.queue.write_texture(target, &texels, rows, size);
-        next = next_level(&texels);
+        next = smaller;
     }
     texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// Alpha alone.
+fn alpha_level(picture: &RgbaImage) -> MaskLevel {
+    let (width, height) = picture.dimensions();
+    MaskLevel { size: [width, height], alphas: picture.pixels().map(|texel| texel.0[3]).collect() }
 }
 
 fn sampler(gpu: &Gpu, texture: &Texture) -> wgpu::Sampler {

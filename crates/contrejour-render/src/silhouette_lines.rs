@@ -98,7 +98,7 @@ fn line(casters: &Casters, silhouette: &SilhouetteEdge) -> Option<Line> {
     let topology = casters.topology(caster);
     let edge = topology.edges.get(silhouette.edge_id as usize)?;
     let end_local = |vertex: u32| {
-        let position = match &caster.deforming {
+        let position = match casters.deforming(caster) {
             Some(deforming) => deforming.posed[vertex as usize],
             None => DVec3::from(topology.positions[vertex as usize].map(f64::from)),
         };

@@ -1,5 +1,6 @@
 //! The smaller versions of a texture.
 
+use contrejour_mesh::halved;
 use image::{Rgba, RgbaImage};
 
 /// A texture half as large each way, down to 1: each texel is the mean of those below it, as light and not as its code,
@@ -9,8 +10,8 @@ pub(crate) fn next_level(texture: &RgbaImage) -> Option<RgbaImage> {
     if width.max(height) == 1 {
         return None;
     }
-    let columns = shares_of(width);
-    let rows = shares_of(height);
+    let columns = halved(width);
+    let rows = halved(height);
     let light_of_code: Vec<f32> = (0..=255).map(|code| light(code as f32 / 255.0)).collect();
     // Where one code becomes the next.
     let borders: Vec<f32> = (0..255).map(|code| light((code as f32 + 0.5) / 255.0)).collect();
@@ -32,19 +33,6 @@ pub(crate) fn next_level(texture: &RgbaImage) -> Option<RgbaImage> {
         let [red, green, blue] = if alpha > 0.0 { opaque.map(|light| code(light / alpha)) } else { plain.map(code) };
         Rgba([red, green, blue, (255.0 * alpha).round() as u8])
     }))
-}
-
-/// For each of half as many texels, those that it covers and how much of it each of them is.
-fn shares_of(texels: u32) -> Vec<Vec<(u32, f32)>> {
-    let halved = (texels / 2).max(1);
-    let length = f64::from(texels) / f64::from(halved);
-    let of_texel = |index: u32| {
-        let (start, end) = (f64::from(index) * length, f64::from(index + 1) * length);
-        let covered = |texel: u32| f64::from(texel + 1).min(end) - f64::from(texel).max(start);
-        let texels = start as u32..(end.ceil() as u32).min(texels);
-        texels.map(|texel| (texel, (covered(texel) / length) as f32)).collect()
-    };
-    (0..halved).map(of_texel).collect()
 }
 
 /// Light from an sRGB code of 0 to 1 (IEC 61966-2-1:1999).
@@ -83,7 +71,7 @@ mod tests {
     fn texels_have_equal_shares() {
         for texels in 2..40_u32 {
             let mut of_texels = vec![0.0; texels as usize];
-            for shares in shares_of(texels) {
+            for shares in halved(texels) {
                 assert!((shares.iter().map(|(_, share)| share).sum::<f32>() - 1.0).abs() < 1e-5);
                 shares.iter().for_each(|&(texel, share)| of_texels[texel as usize] += share);
             }

@@ -45,7 +45,7 @@ mod trace_space;
 
 pub use error::{OccluderError, TraceError};
 pub use light_shape::LightShape;
-pub use occluders::{OccluderMesh, Occluders};
+pub use occluders::{Holes, OccluderMesh, Occluders};
 pub use options::TraceOptions;
 pub use receiver::{Facing, Receiver, Visibility};
 pub use trace::trace;

@@ -1,5 +1,8 @@
 //! The faces that block light and that receivers lie on.
 
+use std::fmt;
+use std::sync::Arc;
+
 use glam::{DMat4, DVec3};
 
 use crate::error::OccluderError;
@@ -11,7 +14,7 @@ use crate::trace_space::TraceSpace;
 use crate::{Receiver, TraceError};
 
 /// A mesh in its place.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct OccluderMesh<'a> {
     /// Position of each vertex, object space.
     pub positions: &'a [[f32; 3]],
@@ -21,12 +24,34 @@ pub struct OccluderMesh<'a> {
     pub world_from_object: DMat4,
     /// Whether it blocks light. Without, receivers can lie on it and nothing more.
     pub casts: bool,
+    /// Where its triangles are cut; none where they are whole.
+    pub holes: Option<Holes>,
+}
+
+/// Where triangles are cut: what a ray meets there does not block it.
+#[derive(Clone)]
+pub struct Holes(Arc<IsHole>);
+
+/// Whether a triangle has a hole at a point, by the weights of its corners.
+type IsHole = dyn Fn(usize, [f64; 3]) -> bool + Send + Sync;
+
+impl Holes {
+    /// Holes where a function says so, of a triangle of the mesh and the weights of its corners, which add up to 1.
+    pub fn new(is_hole: impl Fn(usize, [f64; 3]) -> bool + Send + Sync + 'static) -> Self {
+        Self(Arc::new(is_hole))
+    }
+}
+
+impl fmt::Debug for Holes {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("Holes")
+    }
 }
 
 impl<'a> OccluderMesh<'a> {
     /// A mesh that casts.
     pub fn new(positions: &'a [[f32; 3]], triangles: &'a [[u32; 3]], world_from_object: DMat4) -> Self {
-        Self { positions, triangles, world_from_object, casts: true }
+        Self { positions, triangles, world_from_object, casts: true, holes: None }
     }
 
     /// The corners of a triangle in the world.
@@ -58,6 +83,8 @@ pub struct Occluders {
     /// In trace space.
     corners: Vec<[DVec3; 3]>,
     first_faces: Vec<u32>,
+    /// By their first face, ascending.
+    holes: Vec<(u32, Option<Holes>)>,
     faces_without_area: usize,
     tree: FaceTree,
 }
@@ -109,7 +136,12 @@ impl Occluders {
             .collect();
         let tree = FaceTree::new(&corners, &casting_faces);
         let faces_without_area = corners.iter().filter(|face| area(face) == 0.0).count();
-        Ok(Self { space, corners, first_faces, faces_without_area, tree })
+        let holes = if meshes.iter().any(|mesh| mesh.holes.is_some()) {
+            first_faces.iter().copied().zip(meshes.iter().map(|mesh| mesh.holes.clone())).collect()
+        } else {
+            Vec::new()
+        };
+        Ok(Self { space, corners, first_faces, holes, faces_without_area, tree })
     }
 
     /// Number of a mesh's first triangle among all faces: they are numbered in order, mesh after mesh, whether they
@@ -135,7 +167,19 @@ impl Occluders {
 
     /// Whether a face other than `own_face` lies along the ray.
     pub(crate) fn block(&self, ray: &ShadowRay, own_face: u32) -> bool {
-        self.tree.any_along(ray, |face| face != own_face && ray.is_blocked_by(&self.corners[face as usize]))
+        self.tree.any_along(ray, |face| {
+            let met = if face == own_face { None } else { ray.meets(&self.corners[face as usize]) };
+            met.is_some_and(|weights| !self.is_hole(face, weights))
+        })
+    }
+
+    /// Whether a face has a hole at a point.
+    fn is_hole(&self, face: u32, weights: [f64; 3]) -> bool {
+        let mesh = self.holes.partition_point(|(first_face, _)| *first_face <= face);
+        match mesh.checked_sub(1).map(|mesh| &self.holes[mesh]) {
+            Some((first_face, Some(Holes(is_hole)))) => is_hole((face - first_face) as usize, weights),
+            _ => false,
+        }
     }
 
     /// Whether a face other than `own_face` may block a ray of the shaft.

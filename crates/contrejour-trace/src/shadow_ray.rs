@@ -53,13 +53,14 @@ impl ShadowRay {
         Self { origin, direction, reach, along, shear: [x / z, y / z] }
     }
 
-    /// Whether the face lies between the origin and the light, borders included.
+    /// Where the face lies between the origin and the light, borders included: the weights of its corners there; none where it
+    /// does not.
     ///
     /// The test of Woop, Benthin & Wald 2013 in `f64`. Corners are sheared onto a plane where the ray is the origin: a
     /// corner falls on the same point for each of its faces. There an edge's side is the sign of the difference of two
     /// products; each is rounded once and rounding is monotonic, so the sign is right or zero, and zero counts as
     /// inside for the faces on both sides. So no ray slips between faces that share an edge or a corner.
-    pub fn is_blocked_by(&self, corners: &[DVec3; 3]) -> bool {
+    pub fn meets(&self, corners: &[DVec3; 3]) -> Option<[f64; 3]> {
         let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = corners.map(|corner| self.sheared(corner));
         let u = cx * by - cy * bx;
         let v = ax * cy - ay * cx;
@@ -68,11 +69,11 @@ impl ShadowRay {
         // Zero where the ray lies in the face's plane: it then passes along an opaque sheet of no thickness.
         let area = u + v + w;
         if !is_inside || area == 0.0 {
-            return false;
+            return None;
         }
         let [_, _, step] = self.along.last(self.direction);
         let distance = (u * az + v * bz + w * cz) / (area * step);
-        distance > 0.0 && distance < self.reach
+        (distance > 0.0 && distance < self.reach).then(|| [u, v, w].map(|weight| weight / area))
     }
 
     /// A point relative to the origin, sheared so that the ray runs along the third axis.
@@ -91,8 +92,10 @@ mod tests {
     fn blocks(origin: DVec3, direction: DVec3, reach: f64) -> bool {
         let ray = ShadowRay::new(origin, direction.normalize(), reach);
         let [a, b, c] = FACE;
-        assert_eq!(ray.is_blocked_by(&FACE), ray.is_blocked_by(&[a, c, b]), "both sides are opaque");
-        ray.is_blocked_by(&FACE)
+        let met = ray.meets(&FACE);
+        let swapped = ray.meets(&[a, c, b]).map(|[u, w, v]| [u, v, w]);
+        assert_eq!(met, swapped, "both sides are opaque");
+        met.is_some()
     }
 
     #[test]
@@ -103,6 +106,13 @@ mod tests {
         assert!(!blocks(inside, DVec3::Z, 0.999), "the light is before it");
         assert!(!blocks(inside, -DVec3::Z, f64::INFINITY), "it is behind the receiver");
         assert!(!blocks(DVec3::new(0.75, 0.75, 0.0), DVec3::Z, f64::INFINITY), "the ray goes by");
+    }
+
+    #[test]
+    fn weights_say_where_it_is_met() {
+        let point = DVec3::new(0.25, 0.5, 0.0);
+        let ray = ShadowRay::new(point, DVec3::Z, f64::INFINITY);
+        assert_eq!(ray.meets(&FACE), Some([0.25, 0.25, 0.5]));
     }
 
     #[test]

@@ -3,7 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use contrejour_trace::{
-    Facing, LightShape, OccluderError, OccluderMesh, Occluders, Receiver, TraceError, TraceOptions, Visibility, trace,
+    Facing, Holes, LightShape, OccluderError, OccluderMesh, Occluders, Receiver, TraceError, TraceOptions, Visibility,
+    trace,
 };
 use glam::{DMat4, DVec3};
 
@@ -128,6 +129,37 @@ fn what_does_not_cast_only_receives() {
     let receivers = [on_floor(0.0, 0.0), on_ghost];
     let answers = trace(&occluders, &LAMP, &receivers, &TraceOptions::default(), &|_| ()).expect("all is good");
     assert!(answers.iter().all(|answer| answer.mean == 1.0), "{answers:?}");
+}
+
+/// A sheet with a hole throws the shadow of what is left of it; the mesh before it keeps its faces whole.
+#[test]
+fn light_passes_through_holes() {
+    let sheet = [[-2.0, 2.0, -2.0], [2.0, 2.0, -2.0], [2.0, 2.0, 2.0], [-2.0, 2.0, 2.0]];
+    let half = [[-2.0, 2.0, -2.0], [0.0, 2.0, -2.0], [0.0, 2.0, 2.0], [-2.0, 2.0, 2.0]];
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    // Where x is above 0, of corners that are at -2 or 2.
+    let holes = Holes::new(move |triangle, weights: [f64; 3]| {
+        let along = triangles[triangle]
+            .iter()
+            .zip(weights)
+            .map(|(&corner, weight)| f64::from(sheet[corner as usize][0]) * weight);
+        along.sum::<f64>() > 0.0
+    });
+    let floor = OccluderMesh::new(&FLOOR, &FACE, DMat4::IDENTITY);
+    let whole = OccluderMesh::new(&sheet, &triangles, DMat4::IDENTITY);
+    let cut = OccluderMesh { holes: Some(holes), ..whole.clone() };
+    let left = OccluderMesh::new(&half, &triangles, DMat4::IDENTITY);
+    let receivers: Vec<Receiver> = (-10..=10).map(|step| on_floor(0.2 * f64::from(step), 0.1)).collect();
+    let [whole, cut, left] = [whole, cut, left].map(|sheet| {
+        let occluders = Occluders::new(&[floor.clone(), sheet]).expect("the scene is finite");
+        let answers = trace(&occluders, &LAMP, &receivers, &TraceOptions::default(), &|_| ()).expect("all is good");
+        answers.iter().map(|answer| answer.mean).collect::<Vec<_>>()
+    });
+    assert_ne!(whole, left);
+    for ((cut, left), receiver) in cut.iter().zip(&left).zip(&receivers) {
+        // The rays are those of another number of samples where a point needs fewer.
+        assert!((cut - left).abs() < 0.02, "{}: {cut} through a hole, {left} beside a sheet", receiver.position);
+    }
 }
 
 #[test]

@@ -30,6 +30,12 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("CASTER_NEVER", layout::CASTER_NEVER),
     ("CASTER_ALWAYS", layout::CASTER_ALWAYS),
     ("CASTER_IN_VIEW", layout::CASTER_IN_VIEW),
+    ("BLOCK_BY_PLANES", layout::BLOCK_BY_PLANES),
+    ("BLOCK_BY_POSITIONS", layout::BLOCK_BY_POSITIONS),
+    ("BLOCK_MASKED", layout::BLOCK_MASKED),
+    ("MASK_REPEAT", layout::MASK_REPEAT),
+    ("MASK_MIRROR", layout::MASK_MIRROR),
+    ("MASK_CLAMP", layout::MASK_CLAMP),
     ("VIEW_CULLS", layout::VIEW_CULLS),
     ("VIEW_PANCAKES", layout::VIEW_PANCAKES),
 ];
@@ -113,14 +119,14 @@ fn the_table_has_every_constant_of_the_layout_crate() {
 #[test]
 fn the_comparers_find_planted_faults() {
     let module = |wgsl: &str| Module { name: "planted".into(), wgsl: wgsl.into() };
-    let good = "struct WorkItem { caster: u32, block: u32, by_positions: u32 } const BLOCK_SIZE = 64u;";
+    let good = "struct WorkItem { caster: u32, block: u32, kind: u32 } const BLOCK_SIZE = 64u;";
     assert_eq!(compare_structs(&module(good)), Ok(vec!["WorkItem"]));
     assert_eq!(compare_constants(&module(good)), Ok(vec!["BLOCK_SIZE"]));
     for faulty in [
-        "struct WorkItem { block: u32, caster: u32, by_positions: u32 }",
+        "struct WorkItem { block: u32, caster: u32, kind: u32 }",
         "struct WorkItem { caster: u32, block: u32 }",
-        "struct WorkItem { caster: u32, block: u32, by_positions: u32, more: u32 }",
-        "struct WorkItem { caster: vec4u, block: u32, by_positions: u32 }",
+        "struct WorkItem { caster: u32, block: u32, kind: u32, more: u32 }",
+        "struct WorkItem { caster: vec4u, block: u32, kind: u32 }",
     ] {
         assert!(compare_structs(&module(faulty)).is_err_and(|text| text.contains("WorkItem")), "{faulty}");
     }

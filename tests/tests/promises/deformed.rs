@@ -95,7 +95,7 @@ fn are_exact(gpu: &Gpu, meshes: &[PosedMesh]) -> Outcome {
             compare_positions(deforming, &poses[pose], &deforming.posed(&poses[pose]), &moved.positions).map_err(at)?;
             check_alike(deforming, &moved.positions).map_err(at)?;
 
-            let topology = deforming.topology(mesh).map_err(|error| error.to_string())?;
+            let topology = deforming.topology(&mesh.positions, &mesh.triangles).map_err(|error| error.to_string())?;
             let classes: Vec<u32> = bytemuck::pod_collect_to_vec(&deforming.weld_data());
             let oracle = OracleTopology::of_deforming(&mesh.positions, &classes, &mesh.triangles);
             let oracle = oracle.moved(&moved.positions);

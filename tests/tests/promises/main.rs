@@ -13,6 +13,7 @@ mod lamp_borders;
 mod lamp_truth;
 mod left_out;
 mod many_lights;
+mod masked;
 mod no_gaps;
 mod nothing_lost;
 mod nothing_per_edge;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         nothing_per_edge::trials(),
         own_positions::trials(),
         many_lights::trials(),
+        masked::trials(),
         deformed::trials(),
         device_trouble::trials(),
         pages::trials(),

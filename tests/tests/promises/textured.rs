@@ -3,13 +3,13 @@
 use std::io::Cursor;
 use std::sync::Arc;
 
-use contrejour_mesh::{EncodedImage, MeshFile, Texture, TextureFilter, TextureWrap, TexturedPart, TriangleMesh};
-use contrejour_render::{NewRendererError, Renderer};
+use contrejour_mesh::{EncodedImage, MaterialPart, MeshFile, Texture, TextureFilter, TextureWrap, TriangleMesh};
+use contrejour_render::{Judge, NewRendererError, Renderer};
 use contrejour_scene::{Camera, Scene};
 use contrejour_tests::gpu::{Equipment, render_gpu};
 use contrejour_tests::harness::{Outcome, gpu_trial};
-use glam::DVec3;
-use image::{DynamicImage, ImageFormat, Rgb, RgbImage, RgbaImage};
+use glam::{DMat4, DVec3};
+use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
 use libtest_mimic::Trial;
 
 /// Pixels along a side of the picture, which the square fills.
@@ -26,6 +26,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("textured::texels_are_where_they_belong", |_| texels_are_where_they_belong()),
         gpu_trial("textured::small_texels_are_averaged", |_| small_texels_are_averaged()),
         gpu_trial("textured::a_scene_can_replace_them", |_| a_scene_can_replace_them()),
+        gpu_trial("textured::alpha_cuts_what_is_seen", |_| alpha_cuts_what_is_seen()),
         gpu_trial("textured::a_damaged_picture_is_told", |_| a_damaged_picture_is_told()),
     ]
 }
@@ -49,7 +50,7 @@ fn square(texture: Texture, repeats: f32) -> Scene {
         normals: vec![[0.0, 0.0, 1.0]; 4],
         colors: vec![[1.0; 3]; 4],
         texture_coordinates: corners.map(|[x, y]| [repeats * (0.5 + 0.5 * x), repeats * (0.5 - 0.5 * y)]).to_vec(),
-        textured_parts: vec![TexturedPart { triangles: 0..2, texture: Arc::new(texture) }],
+        parts: vec![MaterialPart { triangles: 0..2, texture: Some(Arc::new(texture)), alpha_cutoff: None }],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         vertex_numbers: (0..4).collect(),
         ..TriangleMesh::default()
@@ -167,8 +168,54 @@ fn a_scene_can_replace_them() -> Outcome {
     scene.meshes[0].material.base_color = Some([0.25, 0.5, 1.0]);
     let expected = [0.25, 0.5, 1.0].map(|light| code_of(AMBIENT * light));
     let picture = draw(&scene)?;
-    let is_near = |pixel: &image::Rgba<u8>| (0..3).all(|n| (f32::from(pixel.0[n]) - expected[n]).abs() <= 1.0);
+    let is_near = |pixel: &Rgba<u8>| (0..3).all(|n| (f32::from(pixel.0[n]) - expected[n]).abs() <= 1.0);
     if picture.pixels().all(is_near) { Ok(()) } else { Err("a texture shows through a scene's own colour".into()) }
+}
+
+/// What alpha cuts is not there: not in the picture, not in the view of visibility, and not among the receivers, where the
+/// wall behind is found.
+fn alpha_cuts_what_is_seen() -> Outcome {
+    let is_open = |x: u32, y: u32| (x + 2 * y) % 3 == 0;
+    let texels = RgbaImage::from_fn(4, 4, |x, y| Rgba([200, 200, 200, if is_open(x, y) { 99 } else { 102 }]));
+    let mut bytes = Cursor::new(Vec::new());
+    DynamicImage::from(texels).write_to(&mut bytes, ImageFormat::Png).map_err(|error| error.to_string())?;
+    let image = EncodedImage { place: "holes.png".into(), bytes: bytes.into_inner() };
+    let texture = Texture { image: image.into(), wrap: Default::default(), filter: TextureFilter::Nearest };
+    let mut scene = square(texture, 1.0);
+    let mut card = (*scene.meshes[0].mesh).clone();
+    // 0.8 times 102 / 255 is just above it, and 99 / 255 below.
+    card.parts[0].alpha_cutoff = Some(0.8 * 100.5 / 255.0);
+    card.alphas = vec![0.8; 4];
+    let mut wall = scene.meshes[0].clone();
+    let whole = TriangleMesh { parts: Vec::new(), alphas: Vec::new(), ..card.clone() };
+    wall.mesh = Arc::new(whole);
+    wall.world_from_object = DMat4::from_scale_rotation_translation(DVec3::splat(1.5), Default::default(), -DVec3::Z);
+    wall.material.base_color = Some([0.1; 3]);
+    scene.meshes[0].mesh = Arc::new(card);
+    scene.meshes.push(wall);
+
+    let picture = draw(&scene)?;
+    let gpu = render_gpu(Equipment::Baseline)?;
+    let judge = Judge::new(gpu, &scene).map_err(|error| error.to_string())?;
+    let receivers = judge.receivers().map_err(|error| error.to_string())?;
+    let composed = judge.compose(&scene.lights[0].light, &vec![1.0; (SIDE * SIDE) as usize]);
+    let composed = composed.map_err(|error| error.to_string())?;
+    let mut seen = [0, 0];
+    for (x, y, pixel) in picture.enumerate_pixels() {
+        // Beside an edge of the picture's texels a pixel has a part of both.
+        if [x, y].iter().any(|place| [0, SIDE / 4 - 1].contains(&(place % (SIDE / 4)))) {
+            continue;
+        }
+        let is_open = is_open(4 * x / SIDE, 4 * y / SIDE);
+        let face = receivers.points[(y * SIDE + x) as usize].map(|receiver| receiver.face_id);
+        let is_wall = face.is_some_and(|face| face >= 2);
+        let is_dark = [pixel, composed.get_pixel(x, y)].map(|pixel| pixel.0[0] < 120);
+        if is_wall != is_open || is_dark != [is_open; 2] || face.is_none() {
+            return Err(format!("pixel {x}, {y}: open {is_open}, face {face:?}, {pixel:?}"));
+        }
+        seen[usize::from(is_open)] += 1;
+    }
+    if seen.iter().all(|count| *count > 100) { Ok(()) } else { Err(format!("{seen:?} pixels")) }
 }
 
 fn a_damaged_picture_is_told() -> Outcome {

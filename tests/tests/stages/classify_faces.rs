@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use contrejour_layout::{BLOCK_SIZE, LIT_WORDS_PER_BLOCK};
+use contrejour_layout::{BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, LIT_WORDS_PER_BLOCK};
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
@@ -37,8 +37,8 @@ fn decides_right_or_lists(gpu: &Gpu) -> Outcome {
         twin.run_mirror("classify_faces");
         let (listed, listed_by_twin) = (listed(&after)?, listed(&twin)?);
         check_listed(&listed, &listed_by_twin)?;
-        by_positions += before.listed_faces().iter().filter(|item| item.by_positions == 1).count();
-        by_planes += before.listed_faces().iter().filter(|item| item.by_positions == 0).count();
+        by_positions += before.listed_faces().iter().filter(|item| item.kind == BLOCK_BY_POSITIONS).count();
+        by_planes += before.listed_faces().iter().filter(|item| item.kind == BLOCK_BY_PLANES).count();
         let is_listed = |caster, face_id: u32| {
             listed.get(&(caster, face_id / 32)).is_some_and(|faces| faces >> (face_id % 32) & 1 == 1)
         };

@@ -1,4 +1,4 @@
-//! Numbers of listed blocks to dispatches and a draw.
+//! Numbers of listed blocks to dispatches and draws.
 
 use contrejour_layout::{Counters, DispatchArgs, DrawArgs, LightView};
 use contrejour_tests::compare::compare_exact;
@@ -21,7 +21,8 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
     for items in COUNTS {
         for blocks in COUNTS {
             let view = LightView { face_block_count: blocks, edge_block_count: blocks / 2, ..Default::default() };
-            let counters = Counters { face_items: items, edge_items: items / 3, ..Default::default() };
+            let counters =
+                Counters { face_items: items, edge_items: items / 3, masked_items: items / 2, ..Default::default() };
             let mut frame = Frame { view, counters, ..Frame::empty() };
             let outputs = run(gpu, &stage, &frame, 1);
             frame.run_mirror("write_item_args");

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contrejour_gpu::{CasterInput, Positions, ShadowOptions, Shadows, Untimed};
-use contrejour_layout::{BLOCK_SIZE, Caster, SilhouetteEdge, WorkItem};
+use contrejour_layout::{BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, Caster, SilhouetteEdge, WorkItem};
 use contrejour_mirror::{FrameInputs, run_frame};
 use contrejour_plan::{Light, NearOne, Outputs, ShadowSettings, View, ViewCounts, caster_light, object_light, views};
 use contrejour_render::{Gpu, read_silhouettes};
@@ -59,8 +59,8 @@ fn silhouettes_of(placed: &PlacedMesh<'_>, view: &View) -> Option<Vec<Silhouette
     let edge_count = topology.candidate_edge_count;
     let planes = topology.face_planes();
     let blocks = |count: u32| (0..count.div_ceil(BLOCK_SIZE)).map(|block| WorkItem { block, ..WorkItem::default() });
-    let by_positions = |block| u32::from(!planes.block_fits(block));
-    let face_items = blocks(face_count).map(|item| WorkItem { by_positions: by_positions(item.block), ..item });
+    let kind = |block| if planes.block_fits(block) { BLOCK_BY_PLANES } else { BLOCK_BY_POSITIONS };
+    let face_items = blocks(face_count).map(|item| WorkItem { kind: kind(item.block), ..item });
     let face_items: Vec<WorkItem> = face_items.collect();
     let edge_items: Vec<WorkItem> = blocks(edge_count).collect();
     let caster = Caster {

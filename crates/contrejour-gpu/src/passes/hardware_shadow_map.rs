@@ -1,6 +1,6 @@
 use contrejour_plan::{Pass, TextureKind};
 
-use super::{DepthTarget, DrawCount, Levels, MapPass, SHADOW_MAP_WGSL};
+use super::{DepthKept, DepthTarget, DrawCount, Levels, MapPass, SHADOW_MAP_WGSL};
 
 /// Hardware depth of every caster, where nobody reads linear depth.
 pub(super) const HARDWARE_SHADOW_MAP: MapPass = MapPass {
@@ -10,5 +10,5 @@ pub(super) const HARDWARE_SHADOW_MAP: MapPass = MapPass {
     draws: &[DrawCount::Indirect(0)],
     levels: Levels::First,
     color: None,
-    depth: Some(DepthTarget { texture: TextureKind::ShadowHardwareDepth, is_kept: true }),
+    depth: Some(DepthTarget { texture: TextureKind::ShadowHardwareDepth, is_drawn: false, kept: DepthKept::Always }),
 };

@@ -2,6 +2,8 @@
 
 mod blurred_moments;
 mod hardware_shadow_map;
+mod masked_hardware_shadow_map;
+mod masked_shadow_map;
 mod moments;
 mod shadow_map;
 mod smoothie_alpha;
@@ -55,17 +57,19 @@ pub enum Levels {
 pub struct ColorTarget {
     /// The texture.
     pub texture: TextureKind,
-    /// What it is cleared to.
+    /// What it holds before.
     pub clear: ClearColor,
     /// Whether the least value of each channel wins; else the last one that passes the depth test.
     pub minimum: bool,
 }
 
-/// What a colour target is cleared to.
+/// What a colour target holds before.
 #[derive(Clone, Copy, Debug)]
 pub enum ClearColor {
     /// Nothing that matters: every texel is drawn.
     Nothing,
+    /// What the pass before drew.
+    Drawn,
     /// The farthest depth of the view.
     FarDepth,
     /// Alpha of no smoothie.
@@ -79,14 +83,29 @@ pub enum ClearColor {
 pub struct DepthTarget {
     /// The texture.
     pub texture: TextureKind,
-    /// Whether somebody reads it afterwards.
-    pub is_kept: bool,
+    /// Whether it holds what the pass before drew; else it is cleared to the farthest depth.
+    pub is_drawn: bool,
+    /// When somebody reads it afterwards.
+    pub kept: DepthKept,
+}
+
+/// When a depth buffer is read after a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthKept {
+    /// Never.
+    Never,
+    /// Where a pass of this kind follows.
+    Before(Pass),
+    /// Always: it is a map.
+    Always,
 }
 
 /// All passes over a light view's maps, in the order in which a frame runs them.
-pub const ALL: [MapPass; 7] = [
+pub const ALL: [MapPass; 9] = [
     hardware_shadow_map::HARDWARE_SHADOW_MAP,
     shadow_map::SHADOW_MAP,
+    masked_hardware_shadow_map::MASKED_HARDWARE_SHADOW_MAP,
+    masked_shadow_map::MASKED_SHADOW_MAP,
     moments::MOMENTS,
     blurred_moments::BLURRED_MOMENTS,
     smoothie_depth::SMOOTHIE_DEPTH,
@@ -95,7 +114,18 @@ pub const ALL: [MapPass; 7] = [
 ];
 
 const SHADOW_MAP_WGSL: &str =
-    wgsl!("raster/shadow_map", "topology", "light", "caster_position", "view_depth", "power_of_two");
+    wgsl!("raster/shadow_map", "topology", "light", "caster_position", "view_depth", "power_of_two", "shadow_vertex");
+
+const MASKED_SHADOW_MAP_WGSL: &str = wgsl!(
+    "raster/masked_shadow_map",
+    "topology",
+    "light",
+    "caster_position",
+    "view_depth",
+    "power_of_two",
+    "shadow_vertex",
+    "mask"
+);
 
 const SMOOTHIE_WGSL: &str = wgsl!("raster/smoothie_buffer", "light", "light_outline", "args", "outline", "view_depth");
 
@@ -104,6 +134,7 @@ const SMOOTHIE_DRAWS: &[DrawCount] = &[DrawCount::Indirect(1), DrawCount::Indire
 /// The shader modules of the raster passes, those of one text once.
 pub(crate) const MODULES: &[ShaderModule] = &[
     ShaderModule::of("shadow_map", SHADOW_MAP_WGSL),
+    ShaderModule::of("masked_shadow_map", MASKED_SHADOW_MAP_WGSL),
     ShaderModule::of("moments", moments::MOMENTS.wgsl),
     ShaderModule::of("blurred_moments", blurred_moments::BLURRED_MOMENTS.wgsl),
     ShaderModule::of("smoothie_buffer", SMOOTHIE_WGSL),

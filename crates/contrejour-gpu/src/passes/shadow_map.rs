@@ -1,6 +1,6 @@
 use contrejour_plan::{Pass, TextureKind};
 
-use super::{ClearColor, ColorTarget, DepthTarget, DrawCount, Levels, MapPass, SHADOW_MAP_WGSL};
+use super::{ClearColor, ColorTarget, DepthKept, DepthTarget, DrawCount, Levels, MapPass, SHADOW_MAP_WGSL};
 
 /// Linear depth of every caster, by the hardware's depth test.
 pub(super) const SHADOW_MAP: MapPass = MapPass {
@@ -10,5 +10,9 @@ pub(super) const SHADOW_MAP: MapPass = MapPass {
     draws: &[DrawCount::Indirect(0)],
     levels: Levels::First,
     color: Some(ColorTarget { texture: TextureKind::ShadowDepth, clear: ClearColor::FarDepth, minimum: false }),
-    depth: Some(DepthTarget { texture: TextureKind::ShadowHardwareDepth, is_kept: false }),
+    depth: Some(DepthTarget {
+        texture: TextureKind::ShadowHardwareDepth,
+        is_drawn: false,
+        kept: DepthKept::Before(Pass::MaskedShadowMap),
+    }),
 };

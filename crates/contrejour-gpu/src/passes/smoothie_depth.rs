@@ -1,6 +1,6 @@
 use contrejour_plan::{Pass, TextureKind};
 
-use super::{DepthTarget, Levels, MapPass, SMOOTHIE_DRAWS, SMOOTHIE_WGSL};
+use super::{DepthKept, DepthTarget, Levels, MapPass, SMOOTHIE_DRAWS, SMOOTHIE_WGSL};
 
 /// Nearest smoothie depth, in a hardware depth buffer.
 pub(super) const SMOOTHIE_DEPTH: MapPass = MapPass {
@@ -10,5 +10,5 @@ pub(super) const SMOOTHIE_DEPTH: MapPass = MapPass {
     draws: SMOOTHIE_DRAWS,
     levels: Levels::First,
     color: None,
-    depth: Some(DepthTarget { texture: TextureKind::SmoothieDepth, is_kept: true }),
+    depth: Some(DepthTarget { texture: TextureKind::SmoothieDepth, is_drawn: false, kept: DepthKept::Always }),
 };

@@ -1,12 +1,14 @@
 //! A scene that techniques are judged by: on the device, and for the tracer.
 
 use std::hash::{DefaultHasher, Hasher};
+use std::ops::Range;
+use std::sync::Arc;
 
-use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
+use contrejour_mesh::{BuildOptions, MaskedMesh, TopologyAwareMesh, TriangleMesh};
 use contrejour_plan::{Light, LightKind, ShadowSettings, View, views};
 use contrejour_render::{Gpu, Judge};
 use contrejour_scene::{Scene, SceneLight};
-use contrejour_trace::{LightShape, OccluderMesh, Occluders, Receiver, TraceOptions, Visibility, trace};
+use contrejour_trace::{Holes, LightShape, OccluderMesh, Occluders, Receiver, TraceOptions, Visibility, trace};
 use glam::DVec3;
 
 use super::error::RunError;
@@ -47,11 +49,13 @@ impl Subject {
         let meshes: Vec<OccluderMesh> = scene
             .meshes
             .iter()
-            .map(|placed| OccluderMesh {
+            .enumerate()
+            .map(|(mesh, placed)| OccluderMesh {
                 positions: &placed.mesh.positions,
                 triangles: &placed.mesh.triangles,
                 world_from_object: local.local_from_world() * placed.world_from_object,
                 casts: placed.casts,
+                holes: holes(&placed.mesh, judge.masked_parts(mesh)),
             })
             .collect();
         let occluders = Occluders::new(&meshes)?;
@@ -107,9 +111,10 @@ impl Subject {
     pub fn faces_and_edges(&self) -> Result<[u64; 2], RunError> {
         let mut counts = [0, 0];
         for placed in self.scene.meshes.iter().filter(|placed| placed.casts && !placed.mesh.triangles.is_empty()) {
-            let topology =
-                TopologyAwareMesh::build(&placed.mesh.positions, &placed.mesh.triangles, &BuildOptions::default())?;
-            counts[0] += topology.faces.len() as u64;
+            // Parts with masks have no edges.
+            let uncut = placed.mesh.uncut_triangles();
+            let topology = TopologyAwareMesh::build(&placed.mesh.positions, &uncut, &BuildOptions::default())?;
+            counts[0] += placed.mesh.triangles.len() as u64;
             counts[1] += u64::from(topology.candidate_edge_count);
         }
         Ok(counts)
@@ -149,6 +154,12 @@ impl NamedScene {
             hasher.write(format!("{:?} {:?} {casts} {receives}", placed.world_from_object, placed.material).as_bytes());
             hasher.write(bytemuck::cast_slice(&placed.mesh.positions));
             hasher.write(bytemuck::cast_slice(&placed.mesh.triangles));
+            for (part, cutoff) in placed.mesh.cut_parts() {
+                hasher.write(format!("{:?} {cutoff}", part.triangles).as_bytes());
+                hasher.write(part.texture.as_ref().map_or(&[], |texture| &texture.image.bytes[..]));
+                hasher.write(bytemuck::cast_slice(&placed.mesh.texture_coordinates));
+                hasher.write(bytemuck::cast_slice(&placed.mesh.alphas));
+            }
         }
         hasher.finish()
     }
@@ -157,4 +168,16 @@ impl NamedScene {
 fn shows(view: &View, position: DVec3) -> bool {
     let clip = view.light_clip_from_world * position.extend(1.0);
     clip.w > 0.0 && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w && clip.z <= clip.w
+}
+
+/// Where a mesh is cut, by its parts with masks.
+fn holes<'a>(mesh: &TriangleMesh, masked: impl Iterator<Item = &'a Arc<MaskedMesh>>) -> Option<Holes> {
+    let triangles = mesh.cut_parts().map(|(part, _)| part.triangles.clone());
+    let parts: Vec<(Range<u32>, Arc<MaskedMesh>)> = triangles.zip(masked.cloned()).collect();
+    let is_hole = move |triangle: usize, weights: [f64; 3]| {
+        let triangle = triangle as u32;
+        let part = parts.iter().find(|(triangles, _)| triangles.contains(&triangle));
+        part.is_some_and(|(triangles, masked)| !masked.keeps(triangle - triangles.start, weights))
+    };
+    mesh.cut_parts().next().map(|_| Holes::new(is_hole))
 }

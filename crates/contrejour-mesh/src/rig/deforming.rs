@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 use super::PartPose;
-use crate::{BuildOptions, Motion, TopologyAwareMesh, TopologyError, TriangleMesh};
+use crate::{BuildOptions, Motion, TopologyAwareMesh, TopologyError};
 
 /// The vertices of a mesh before anything moves them, and the joints and morph targets that do.
 ///
@@ -167,14 +167,14 @@ impl DeformingMesh {
     /// # Errors
     ///
     /// [`TopologyError`], also where the mesh has another number of vertices.
-    pub fn topology(&self, mesh: &TriangleMesh) -> Result<TopologyAwareMesh, TopologyError> {
+    pub fn topology(&self, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<TopologyAwareMesh, TopologyError> {
         let weld_data = self.weld_data();
-        if mesh.positions.len() != self.vertices.len() {
-            return Err(TopologyError::UnevenWeldData { bytes: weld_data.len(), vertices: mesh.positions.len() });
+        if positions.len() != self.vertices.len() {
+            return Err(TopologyError::UnevenWeldData { bytes: weld_data.len(), vertices: positions.len() });
         }
         let options =
             BuildOptions { motion: Motion::Deforming, weld_data: Some(&weld_data), ..BuildOptions::default() };
-        TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &options)
+        TopologyAwareMesh::build(positions, triangles, &options)
     }
 
     /// An order in which only vertices that move alike are equal.

@@ -57,6 +57,33 @@ pub struct TopologyAwareMesh {
 }
 
 impl TopologyAwareMesh {
+    /// Triangles without any edge, and so without silhouettes: what is cut by a mask, or is drawn and nothing more. Nothing is
+    /// welded.
+    ///
+    /// # Errors
+    ///
+    /// [`TopologyError`] when an index is out of range, a position is not finite, or there are too many of either.
+    pub fn faces_alone(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Self, TopologyError> {
+        faces::check(positions, triangles)?;
+        let ids: Vec<u32> = (0..positions.len() as u32).collect();
+        let used = faces::used_vertices(positions.len(), triangles);
+        let (bounds_min, bounds_max) = faces::bounds(positions, &ids, &used);
+        Ok(Self {
+            positions: positions.to_vec(),
+            faces: triangles.iter().map(|&[a, b, c]| Face { a, b, c }).collect(),
+            edges: Vec::new(),
+            candidate_edge_count: 0,
+            edge_classes: Vec::new(),
+            incidences: Vec::new(),
+            partners: Vec::new(),
+            vertex_edge_offsets: Vec::new(),
+            vertex_edges: Vec::new(),
+            bounds_min,
+            bounds_max,
+            report: TopologyReport::default(),
+        })
+    }
+
     /// The candidate edges of a vertex, by ascending edge.
     ///
     /// # Panics

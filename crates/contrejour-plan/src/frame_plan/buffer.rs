@@ -19,6 +19,10 @@ pub enum BufferKind {
     Incidences,
     /// Vertex offsets and vertex edges of all meshes, in words.
     VertexEdges,
+    /// Masks of all meshes.
+    Masks,
+    /// Vertices and pictures of all masks, in words.
+    MaskWords,
     /// Caster records.
     Casters,
     /// Where each caster stands.
@@ -61,7 +65,7 @@ pub enum BufferKind {
     Quads,
     /// Corners.
     Corners,
-    /// Draw arguments of faces, of quads and of corners.
+    /// Draw arguments of faces, of quads, of corners and of masked faces.
     DrawArgs,
 }
 
@@ -81,13 +85,15 @@ pub struct BufferPlan {
 
 impl BufferKind {
     /// All buffers.
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 30] = [
         Self::Positions,
         Self::Faces,
         Self::Planes,
         Self::Edges,
         Self::Incidences,
         Self::VertexEdges,
+        Self::Masks,
+        Self::MaskWords,
         Self::Casters,
         Self::CasterPlaces,
         Self::FaceBlocks,
@@ -121,6 +127,8 @@ impl BufferKind {
             Self::Edges => "edges",
             Self::Incidences => "incidences",
             Self::VertexEdges => "vertex_edges",
+            Self::Masks => "masks",
+            Self::MaskWords => "mask_words",
             Self::Casters => "casters",
             Self::CasterPlaces => "caster_places",
             Self::FaceBlocks => "face_blocks",
@@ -157,6 +165,8 @@ impl BufferKind {
         !matches!(
             self,
             Self::Positions
+                | Self::Masks
+                | Self::MaskWords
                 | Self::CasterPlaces
                 | Self::CasterLights
                 | Self::ReceiverView
@@ -168,7 +178,13 @@ impl BufferKind {
     /// Size of one record or word, in bytes.
     pub const fn item_bytes(self) -> u64 {
         let bytes = match self {
-            Self::Positions | Self::Incidences | Self::VertexEdges | Self::Lit | Self::OutlineSides => 4,
+            Self::Positions
+            | Self::Incidences
+            | Self::VertexEdges
+            | Self::MaskWords
+            | Self::Lit
+            | Self::OutlineSides => 4,
+            Self::Masks => size_of::<layout::Mask>(),
             Self::Faces => size_of::<layout::Face>(),
             Self::Planes => size_of::<[f32; 4]>(),
             Self::Edges => size_of::<layout::Edge>(),

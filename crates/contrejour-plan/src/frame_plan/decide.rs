@@ -4,8 +4,9 @@ use super::plan::has_size;
 use super::{CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
 use crate::{DepthPrecision, ObjectBox, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
 
-/// The passes that one technique or another can do without, smoothies apart, and why.
+/// The passes that one technique or another can do without, smoothies apart, and why; masked ones as those that they follow.
 const MAP_PASSES: [Pass; 4] = [Pass::HardwareShadowMap, Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments];
+const MASKED_PASSES: [Pass; 2] = [Pass::MaskedHardwareShadowMap, Pass::MaskedShadowMap];
 const WITHOUT_MAP_PASS: [Reason; 4] = [
     Reason::LinearDepthIsRead,
     Reason::HardwareDepthIsEnough,
@@ -36,6 +37,7 @@ pub(super) fn smoothies_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList
     let reason = match input.settings.technique {
         _ if input.outputs == Outputs::Silhouettes => Reason::OnlySilhouettesWanted,
         Technique::Smoothies(_) if nothing_casts(input.scene) => Reason::NothingCasts,
+        Technique::Smoothies(_) if !has_silhouettes(input.scene) => Reason::MasksCutAll,
         Technique::Smoothies(smoothies) => {
             if smoothies.width != SmoothieWidth::FromLightSize || has_size(input) {
                 return Some(smoothies);
@@ -66,6 +68,11 @@ pub(super) fn stages(input: &PlanInput<'_>, has_smoothies: bool, left_out: &mut 
         return Vec::new();
     }
     match input.outputs {
+        Outputs::Silhouettes if !has_silhouettes(input.scene) => {
+            left_out.add(Omitted::PlacementStages, Reason::MasksCutAll);
+            left_out.add(Omitted::DetectionStages, Reason::MasksCutAll);
+            Vec::new()
+        }
         Outputs::Silhouettes => Stage::UP_TO_SILHOUETTES.to_vec(),
         _ => Stage::PLACEMENT.to_vec(),
     }
@@ -81,28 +88,40 @@ pub(super) fn passes(
         for pass in MAP_PASSES.into_iter().chain([Pass::Visibility]) {
             left_out.add(Omitted::Pass(pass), Reason::OnlySilhouettesWanted);
         }
+        left_out.add(Omitted::MaskedPasses, Reason::OnlySilhouettesWanted);
         return Vec::new();
     }
     // The shadow map without casters too: it clears the map that receivers look up.
     let mut passes = Vec::new();
+    let is_masked = masked_casters(input.scene).next().is_some();
+    let with_masked = |pass, masked| if is_masked { vec![pass, masked] } else { vec![pass] };
     if let Some(smoothies) = smoothies {
-        passes.push(Pass::ShadowMap);
+        passes.extend(with_masked(Pass::ShadowMap, Pass::MaskedShadowMap));
         passes.extend(smoothie_passes(input, smoothies, left_out));
     } else if let Technique::Variance(_) = input.settings.technique {
-        passes.extend([Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments]);
+        passes.extend(with_masked(Pass::ShadowMap, Pass::MaskedShadowMap));
+        passes.extend([Pass::Moments, Pass::BlurredMoments]);
         if input.settings.depth_precision == DepthPrecision::Bits16 {
             left_out.add(Omitted::FullMoments, Reason::HalvesAskedFor);
         } else if !input.device.float32_filterable {
             left_out.add(Omitted::FullMoments, Reason::DeviceFiltersNoFloats);
         }
     } else {
-        passes.push(Pass::HardwareShadowMap);
+        passes.extend(with_masked(Pass::HardwareShadowMap, Pass::MaskedHardwareShadowMap));
         if matches!(input.settings.technique, Technique::Pcss(_)) && !has_size(input) {
             left_out.add(Omitted::BlockerSearch, Reason::LightHasNoSize);
         }
     }
     for (pass, reason) in MAP_PASSES.into_iter().zip(WITHOUT_MAP_PASS) {
         if !passes.contains(&pass) {
+            left_out.add(Omitted::Pass(pass), reason);
+        }
+    }
+    if !is_masked {
+        left_out.add(Omitted::MaskedPasses, Reason::NothingIsMasked);
+    }
+    for (pass, reason) in MASKED_PASSES.into_iter().zip(WITHOUT_MAP_PASS) {
+        if is_masked && !passes.contains(&pass) {
             left_out.add(Omitted::Pass(pass), reason);
         }
     }
@@ -161,6 +180,14 @@ fn is_seen(input: &PlanInput<'_>, bounds: &ObjectBox) -> bool {
     input.views.iter().any(|view| view.can_see(bounds, view.reach_ndc(input.settings)))
 }
 
+/// Notes who casts and has no silhouette, where silhouettes are looked for.
+pub(super) fn note_masked(scene: &SceneFacts, stages: &[Stage], left_out: &mut LeftOutList) {
+    if stages.contains(&Stage::DetectSilhouette) {
+        let names = masked_casters(scene).map(|caster| caster.name.clone());
+        left_out.all(names.map(Omitted::Silhouette), Reason::MaskCutsIt);
+    }
+}
+
 /// Notes where no face has a plane.
 pub(super) fn note_planes(scene: &SceneFacts, stages: &[Stage], left_out: &mut LeftOutList) {
     if stages.contains(&Stage::ClassifyFaces) && !scene.casters.iter().any(CasterFacts::has_planes) {
@@ -169,5 +196,18 @@ pub(super) fn note_planes(scene: &SceneFacts, stages: &[Stage], left_out: &mut L
 }
 
 fn nothing_casts(scene: &SceneFacts) -> bool {
-    scene.casters.iter().all(|caster| scene.meshes[caster.mesh].faces == 0)
+    !scene.casters.iter().any(|caster| has_faces(scene, caster))
+}
+
+/// Whether something casts that no mask cuts.
+fn has_silhouettes(scene: &SceneFacts) -> bool {
+    scene.casters.iter().any(|caster| has_faces(scene, caster) && !scene.meshes[caster.mesh].is_masked)
+}
+
+fn masked_casters(scene: &SceneFacts) -> impl Iterator<Item = &CasterFacts> {
+    scene.casters.iter().filter(|caster| has_faces(scene, caster) && scene.meshes[caster.mesh].is_masked)
+}
+
+fn has_faces(scene: &SceneFacts, caster: &CasterFacts) -> bool {
+    scene.meshes[caster.mesh].faces > 0
 }

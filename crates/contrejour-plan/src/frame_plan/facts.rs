@@ -19,6 +19,17 @@ pub struct MeshFacts {
     pub incidence_words: u32,
     /// Edges in the lists of all vertices together.
     pub vertex_edges: u32,
+    /// Whether a mask cuts its faces; then it has no edges.
+    pub is_masked: bool,
+}
+
+/// The masks of all meshes together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MaskFacts {
+    /// How many there are.
+    pub count: u64,
+    /// Words of their vertices and pictures.
+    pub words: u64,
 }
 
 /// What of a mesh lies in one page: whole blocks of its faces and of its edges. Faces and edges keep their ids.
@@ -72,6 +83,8 @@ pub struct SceneFacts {
     pub casters: Vec<CasterFacts>,
     /// Names of the meshes that only receive: they have no topology.
     pub receivers: Vec<String>,
+    /// What cuts the faces of some of the meshes.
+    pub masks: MaskFacts,
 }
 
 /// What the device can do.

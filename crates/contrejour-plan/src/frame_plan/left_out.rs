@@ -28,10 +28,14 @@ pub enum Omitted {
     ExtrusionStages,
     /// All smoothie passes, with their textures.
     SmoothiePasses,
+    /// Both passes that draw masked faces, with the masks.
+    MaskedPasses,
     /// One pass, with its textures.
     Pass(Pass),
     /// The work items of the caster of this name.
     CasterWork(String),
+    /// Silhouette and smoothies of the caster of this name.
+    Silhouette(String),
     /// Topology and caster record of the mesh of this name.
     Topology(String),
     /// A buffer of instance transforms.
@@ -90,6 +94,12 @@ pub enum Reason {
     NoFaces,
     /// The mesh only receives.
     ReceivesOnly,
+    /// A mask cuts the caster's faces, so nobody knows its silhouette: it is in the shadow map alone.
+    MaskCutsIt,
+    /// Masks cut the faces of everything that casts.
+    MasksCutAll,
+    /// No mask cuts a caster.
+    NothingIsMasked,
     /// Each caster has one matrix.
     NothingIsInstanced,
     /// Positions come as they are drawn.
@@ -107,8 +117,10 @@ impl fmt::Display for Omitted {
             Self::DetectionStages => "detection stages",
             Self::ExtrusionStages => "extrusion stages",
             Self::SmoothiePasses => "smoothie passes",
+            Self::MaskedPasses => "masked passes",
             Self::Pass(pass) => return formatter.pad(&format!("pass {}", pass.name())),
             Self::CasterWork(name) => return formatter.pad(&format!("work of caster {name}")),
+            Self::Silhouette(name) => return formatter.pad(&format!("silhouette and smoothies of {name}")),
             Self::Topology(name) => return formatter.pad(&format!("topology of {name}")),
             Self::InstanceTransforms => "instance transforms",
             Self::Deformation => "deformation",
@@ -144,6 +156,9 @@ impl fmt::Display for Reason {
             Self::SingularMatrix => "its matrix is singular for this light",
             Self::NoFaces => "it has no face",
             Self::ReceivesOnly => "it only receives",
+            Self::MaskCutsIt => "a mask cuts its faces: it is in the shadow map alone",
+            Self::MasksCutAll => "masks cut the faces of everything that casts",
+            Self::NothingIsMasked => "no mask cuts a caster",
             Self::NothingIsInstanced => "each caster has one matrix",
             Self::NothingIsSkinned => "positions come as they are drawn",
             Self::NothingChanged => "neither the light nor anything within its reach changed: its maps stand",

@@ -21,7 +21,7 @@ mod visibility;
 pub use buffer::{BufferKind, BufferPlan};
 pub use capacity::Capacity;
 pub use error::PlanError;
-pub use facts::{CasterFacts, DeviceFacts, MeshFacts, MeshPiece, Outputs, SceneFacts};
+pub use facts::{CasterFacts, DeviceFacts, MaskFacts, MeshFacts, MeshPiece, Outputs, SceneFacts};
 pub use left_out::{LeftOut, Omitted, Reason};
 pub use page::{PagePlan, PagedCaster};
 pub use pass::Pass;

@@ -12,6 +12,10 @@ pub enum Pass {
     HardwareShadowMap,
     /// Linear depth of every caster, by the hardware's depth test.
     ShadowMap,
+    /// Hardware depth of the faces that a mask cuts, over that of all others.
+    MaskedHardwareShadowMap,
+    /// Linear depth of the faces that a mask cuts, over that of all others.
+    MaskedShadowMap,
     /// Moments of the shadow map's depth: the first level.
     Moments,
     /// Moments, blurred and halved level by level.
@@ -28,9 +32,11 @@ pub enum Pass {
 
 impl Pass {
     /// All passes in the order in which a frame runs them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::HardwareShadowMap,
         Self::ShadowMap,
+        Self::MaskedHardwareShadowMap,
+        Self::MaskedShadowMap,
         Self::Moments,
         Self::BlurredMoments,
         Self::SmoothieDepth,
@@ -44,6 +50,8 @@ impl Pass {
         match self {
             Self::HardwareShadowMap => "hardware_shadow_map",
             Self::ShadowMap => "shadow_map",
+            Self::MaskedHardwareShadowMap => "masked_hardware_shadow_map",
+            Self::MaskedShadowMap => "masked_shadow_map",
             Self::Moments => "moments",
             Self::BlurredMoments => "blurred_moments",
             Self::SmoothieDepth => "smoothie_depth",
@@ -58,6 +66,9 @@ impl Pass {
         match self {
             Self::HardwareShadowMap | Self::ShadowMap => {
                 &[LightView, FaceItems, Casters, CasterLights, Faces, Positions, DrawArgs]
+            }
+            Self::MaskedHardwareShadowMap | Self::MaskedShadowMap => {
+                &[LightView, FaceItems, Casters, CasterLights, Faces, Positions, Masks, MaskWords, DrawArgs]
             }
             Self::Moments => &[LightView],
             Self::BlurredMoments => &[],
@@ -77,10 +88,12 @@ impl Pass {
             Self::SmoothieBuffer => &[TextureKind::SmoothieBuffer],
             // Its levels are those of the texture that the pass before made.
             Self::BlurredMoments | Self::Visibility => &[],
+            // They draw over what the pass before made.
+            Self::MaskedHardwareShadowMap | Self::MaskedShadowMap => &[],
         }
     }
 
-    /// Whether it draws the casters.
+    /// Whether it draws the casters that no mask cuts.
     pub const fn fills_shadow_map(self) -> bool {
         matches!(self, Self::HardwareShadowMap | Self::ShadowMap)
     }

@@ -46,6 +46,12 @@ impl PipelinePlan {
             Pass::HardwareShadowMap => (&["vertex_shadow_map"], None),
             Pass::ShadowMap if is_pancaked => (&["vertex_shadow_map"], Some("fragment_pancaked_shadow_map")),
             Pass::ShadowMap => (&["vertex_shadow_map"], Some("fragment_shadow_map")),
+            Pass::MaskedHardwareShadowMap if is_pancaked => {
+                (&["vertex_masked"], Some("fragment_masked_pancaked_hardware_depth"))
+            }
+            Pass::MaskedHardwareShadowMap => (&["vertex_masked"], Some("fragment_masked_hardware_depth")),
+            Pass::MaskedShadowMap if is_pancaked => (&["vertex_masked"], Some("fragment_masked_pancaked_shadow_map")),
+            Pass::MaskedShadowMap => (&["vertex_masked"], Some("fragment_masked_shadow_map")),
             Pass::Moments if technique.is_warped() => (&["vertex_full_screen"], Some("fragment_warped_moments")),
             Pass::Moments => (&["vertex_full_screen"], Some("fragment_moments")),
             Pass::BlurredMoments => (&["vertex_full_screen"], Some("fragment_blurred_moments")),

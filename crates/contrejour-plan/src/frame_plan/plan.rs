@@ -1,6 +1,6 @@
 //! The frame plan and how it is made.
 
-use super::decide::{LeftOutList, casting, note_planes, passes, smoothies_wanted, stages};
+use super::decide::{LeftOutList, casting, note_masked, note_planes, passes, smoothies_wanted, stages};
 use super::page::{Page, pages};
 use super::size_buffers::SceneSizes;
 use super::{
@@ -89,6 +89,7 @@ impl FramePlan {
         }
 
         note_planes(scene, &stages, &mut left_out);
+        note_masked(scene, &stages, &mut left_out);
 
         // Decide who casts in this frame.
         let casting = casting(input, &mut left_out);

@@ -3,13 +3,15 @@
 use contrejour_layout::{LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK};
 
 use super::capacity::expected_outline_edges;
-use super::{BufferKind, BufferPlan, Capacity, CasterFacts, DeviceFacts, MeshFacts, MeshPiece, PlanError, SceneFacts};
+use super::{
+    BufferKind, BufferPlan, Capacity, CasterFacts, DeviceFacts, MaskFacts, MeshFacts, MeshPiece, PlanError, SceneFacts,
+};
 
 /// Entries of item, refine and extrude arguments: each serves two stages.
 const INDIRECT_DISPATCHES: u64 = 2;
 
-/// Faces, quads and corners.
-const INDIRECT_DRAWS: u64 = 3;
+/// Faces, quads, corners and masked faces.
+const INDIRECT_DRAWS: u64 = 4;
 
 /// Sizes of the buffers that serve all pages, with room for all casters of a scene, whether the light sees them or not:
 /// it may in the next frame, and nothing is to be created then.
@@ -19,6 +21,7 @@ pub(super) struct SceneSizes {
     position_words: u64,
     face_blocks: u64,
     edge_blocks: u64,
+    masks: MaskFacts,
 }
 
 /// Sizes of the buffers of one page, which has room for all its casters too.
@@ -56,6 +59,7 @@ impl SceneSizes {
             position_words: mesh_words + own_words,
             face_blocks: cast.clone().map(|mesh| u64::from(mesh.face_blocks())).sum(),
             edge_blocks: cast.map(|mesh| u64::from(mesh.edge_blocks())).sum(),
+            masks: scene.masks,
         }
     }
 
@@ -72,6 +76,8 @@ impl SceneSizes {
     pub fn buffer(&self, kind: BufferKind, device: &DeviceFacts) -> Result<BufferPlan, PlanError> {
         let items = match kind {
             BufferKind::Positions => self.position_words,
+            BufferKind::Masks => self.masks.count,
+            BufferKind::MaskWords => self.masks.words,
             BufferKind::CasterPlaces | BufferKind::CasterLights => self.casters,
             BufferKind::ReceiverView => self.views,
             BufferKind::Lit => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),

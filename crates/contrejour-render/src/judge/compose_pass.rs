@@ -5,7 +5,7 @@ use super::visibility_pass::VISIBILITY_FORMAT;
 use crate::Gpu;
 use crate::frame_uniforms::{FrameBinding, FrameUniforms};
 use crate::scene_meshes::SceneMeshes;
-use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, scene_pipeline};
+use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, ScenePipelines};
 use crate::shaders::COMPOSE;
 use crate::targets::Targets;
 
@@ -14,7 +14,7 @@ const VISIBILITY_GROUP: u32 = 2;
 /// The pass, and the texture that the visibility goes to.
 #[derive(Debug)]
 pub(super) struct ComposePass {
-    pipeline: wgpu::RenderPipeline,
+    pipelines: ScenePipelines,
     frame: FrameBinding,
     visibility: wgpu::Texture,
     visibility_bind_group: wgpu::BindGroup,
@@ -22,7 +22,12 @@ pub(super) struct ComposePass {
 
 impl ComposePass {
     /// Draws into targets of a size and a format.
-    pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, surface_layout: &wgpu::BindGroupLayout) -> Self {
+    pub fn new(
+        gpu: &Gpu,
+        size: [u32; 2],
+        format: wgpu::TextureFormat,
+        (surface_layout, has_cuts): (&wgpu::BindGroupLayout, bool),
+    ) -> Self {
         let device = &gpu.device;
         let frame = FrameBinding::new(gpu, 1);
         let visibility = device.create_texture(&wgpu::TextureDescriptor {
@@ -64,8 +69,9 @@ impl ComposePass {
             immediate_size: 0,
         });
         let entry_points = EntryPoints { vertex: "vertex_shade", fragment: "fragment_compose" };
-        let pipeline = scene_pipeline(gpu, &layout, &module, entry_points, &[format]);
-        Self { pipeline, frame, visibility, visibility_bind_group }
+        let how = (wgpu::CompareFunction::GreaterEqual, has_cuts);
+        let pipelines = ScenePipelines::new(gpu, (&layout, &module), entry_points, &[format], how);
+        Self { pipelines, frame, visibility, visibility_bind_group }
     }
 
     /// Uploads camera, light and one visibility for each pixel.
@@ -98,10 +104,9 @@ impl ComposePass {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let mut pass = targets.begin_pass(&mut encoder, background, None);
-            pass.set_pipeline(&self.pipeline);
             self.frame.bind(&mut pass, FRAME_GROUP, 0);
             pass.set_bind_group(VISIBILITY_GROUP, &self.visibility_bind_group, &[]);
-            meshes.draw(&mut pass, SURFACE_GROUP);
+            self.pipelines.draw(&mut pass, meshes);
         }
         gpu.queue.submit([encoder.finish()]);
     }

@@ -2,7 +2,8 @@
 
 use contrejour_scene::NoLight;
 
-use crate::casters::{CastShadowsError, CasterTopologyError, PrepareShadowsError};
+use crate::caster_meshes::CasterMeshError;
+use crate::casters::{CastShadowsError, PrepareShadowsError};
 use crate::gpu::DeviceFault;
 use crate::judge::TooManyFaces;
 use crate::readback::ReadError;
@@ -21,9 +22,9 @@ pub enum NewJudgeError {
     /// The scene has more faces than can be numbered.
     #[error(transparent)]
     TooManyFaces(#[from] TooManyFaces),
-    /// A mesh that casts has no topology.
+    /// A mesh that casts has no topology, or a mask does not fit it.
     #[error(transparent)]
-    Topology(#[from] CasterTopologyError),
+    CasterMesh(#[from] CasterMeshError),
     /// A mesh does not fit, or a texture is not decoded.
     #[error(transparent)]
     Upload(#[from] UploadMeshesError),

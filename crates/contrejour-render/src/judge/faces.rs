@@ -54,7 +54,11 @@ fn separate_faces(mesh: &TriangleMesh) -> TriangleMesh {
             [] => Vec::new(),
             coordinates => corners.iter().map(|&vertex| coordinates[vertex as usize]).collect(),
         },
-        textured_parts: mesh.textured_parts.clone(),
+        alphas: match &mesh.alphas[..] {
+            [] => Vec::new(),
+            alphas => corners.iter().map(|&vertex| alphas[vertex as usize]).collect(),
+        },
+        parts: mesh.parts.clone(),
         triangles: (0..mesh.triangles.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect(),
         ..TriangleMesh::default()
     }

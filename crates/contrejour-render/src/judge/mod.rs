@@ -15,6 +15,7 @@ mod visibility_pass;
 
 use std::sync::Arc;
 
+use contrejour_mesh::MaskedMesh;
 use contrejour_plan::{Eye, Light, ShadowSettings};
 use contrejour_scene::{Scene, SceneLight};
 use image::RgbaImage;
@@ -22,7 +23,7 @@ use image::RgbaImage;
 use crate::casters::Casters;
 use crate::frame_uniforms::FrameUniforms;
 use crate::readback::{ReadError, read_picture, read_texture};
-use crate::scene_meshes::SceneMeshes;
+use crate::scene_meshes::{SceneMeshes, has_cuts};
 use crate::surface_light::SurfaceLight;
 use crate::targets::{COLOR_FORMAT, Targets, check_size};
 use crate::{Gpu, LocalSpace};
@@ -82,12 +83,12 @@ impl Judge {
         let first_faces = first_faces(scene)?;
         let local = LocalSpace::around(&scene.camera);
         let casters = Casters::new(scene, &local)?;
-        let pass = ReceiverPass::new(&gpu);
+        let pass = ReceiverPass::new(&gpu, has_cuts(scene));
         let meshes = SceneMeshes::new(&gpu, &with_separate_faces(scene), &local, pass.surface_layout())?;
         let uniforms = FrameUniforms::new(scene, &local.camera(&scene.camera));
         let receivers = pass.draw(&gpu, scene.size, &meshes, &uniforms);
         let surface_layout = pass.surface_layout().clone();
-        let compose = ComposePass::new(&gpu, scene.size, COLOR_FORMAT, &surface_layout);
+        let compose = ComposePass::new(&gpu, scene.size, COLOR_FORMAT, (&surface_layout, has_cuts(scene)));
         let targets = Targets::new(&gpu, scene.size);
         gpu.check()?;
         let [red, green, blue] = scene.background.map(f64::from);
@@ -130,6 +131,11 @@ impl Judge {
         Contestant::new(Arc::clone(&self.scene), settings)
     }
 
+    /// The parts of a mesh of the scene that alpha cuts and that cast, in its order: what a ray meets of them may be a hole.
+    pub fn masked_parts(&self, mesh: usize) -> impl Iterator<Item = &Arc<MaskedMesh>> {
+        self.scene.casters.masked_parts(mesh)
+    }
+
     /// The points from which visibility is asked for; waits for the device.
     ///
     /// # Errors
@@ -159,7 +165,8 @@ impl Judge {
     /// As [`compose`](Self::compose).
     pub fn compose_floats(&self, light: &Light, visibility: &[f32]) -> Result<Vec<[f32; 4]>, ComposeError> {
         let JudgedScene { gpu, receivers, .. } = &*self.scene;
-        let pass = ComposePass::new(gpu, receivers.size(), FLOAT_FORMAT, &self.surface_layout);
+        let pass =
+            ComposePass::new(gpu, receivers.size(), FLOAT_FORMAT, (&self.surface_layout, self.meshes.has_cuts()));
         let targets = Targets::of_format(gpu, receivers.size(), FLOAT_FORMAT);
         self.draw(&pass, &targets, light, visibility)?;
         Ok(bytemuck::pod_collect_to_vec(&read_texture(gpu, &targets.picture, size_of::<[f32; 4]>() as u32)?))

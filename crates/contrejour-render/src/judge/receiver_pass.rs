@@ -7,7 +7,7 @@ use crate::Gpu;
 use crate::frame_uniforms::{FrameBinding, FrameUniforms};
 use crate::readback::{ReadError, read_texture};
 use crate::scene_meshes::SceneMeshes;
-use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, SURFACE_GROUP, scene_pipeline};
+use crate::scene_pipeline::{EntryPoints, FRAME_GROUP, ScenePipelines};
 use crate::shaders::RECEIVERS;
 use crate::surface::surface_layout;
 use crate::targets::{DEPTH_FORMAT, passing_depth, target_texture};
@@ -22,7 +22,7 @@ const BYTES_PER_TEXEL: u32 = 16;
 /// The pass and its bindings; needed once a scene.
 #[derive(Debug)]
 pub(super) struct ReceiverPass {
-    pipeline: wgpu::RenderPipeline,
+    pipelines: ScenePipelines,
     surface_layout: wgpu::BindGroupLayout,
     frame: FrameBinding,
 }
@@ -38,7 +38,7 @@ pub(super) struct ReceiverTarget {
 }
 
 impl ReceiverPass {
-    pub fn new(gpu: &Gpu) -> Self {
+    pub fn new(gpu: &Gpu, has_cuts: bool) -> Self {
         let frame = FrameBinding::new(gpu, 0);
         let surface_layout = surface_layout(&gpu.device);
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -51,8 +51,10 @@ impl ReceiverPass {
             immediate_size: 0,
         });
         let entry_points = EntryPoints { vertex: "vertex_receivers", fragment: "fragment_receivers" };
-        let pipeline = scene_pipeline(gpu, &layout, &module, entry_points, &[POINT_FORMAT, NORMAL_FORMAT]);
-        Self { pipeline, surface_layout, frame }
+        let how = (wgpu::CompareFunction::GreaterEqual, has_cuts);
+        let formats = [POINT_FORMAT, NORMAL_FORMAT];
+        let pipelines = ScenePipelines::new(gpu, (&layout, &module), entry_points, &formats, how);
+        Self { pipelines, surface_layout, frame }
     }
 
     pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
@@ -87,9 +89,8 @@ impl ReceiverPass {
                 depth_stencil_attachment: Some(passing_depth(&depth_view)),
                 ..Default::default()
             });
-            pass.set_pipeline(&self.pipeline);
             self.frame.bind(&mut pass, FRAME_GROUP, 0);
-            meshes.draw(&mut pass, SURFACE_GROUP);
+            self.pipelines.draw(&mut pass, meshes);
         }
         gpu.queue.submit([encoder.finish()]);
 

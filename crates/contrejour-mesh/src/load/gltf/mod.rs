@@ -14,10 +14,10 @@ use std::path::Path;
 
 use glam::DMat4;
 use gltf::material::AlphaMode;
-use gltf::{Document, Node};
+use gltf::{Document, Node, Primitive};
 
 use super::{ReadFile, is_finite, read_file};
-use crate::{AnimatedModel, LoadError, MeshFile, MeshNode, TexturedPart, TriangleMesh};
+use crate::{AnimatedModel, LoadError, MaterialPart, MeshFile, MeshNode, TriangleMesh};
 
 use accessor::Data;
 use primitive::LeftOut;
@@ -29,8 +29,8 @@ use textures::{TexturedVertices, Textures};
 /// order; strips and fans become triangles. Vertex numbers count all vertices of all primitives in that order.
 /// Colours are base colour factors times `COLOR_0`. Base colour textures come with their pictures as the file has them,
 /// and with coordinates after `KHR_texture_transform`; a picture that is missing is a warning, and so are primitives
-/// without the coordinates that their texture asks for, or with an `alphaMode` that would cut or blend them. Cameras in
-/// perspective and the lights of `KHR_lights_punctual` stand where their nodes are at rest. Morph targets have their
+/// without the coordinates that their texture asks for, or with the `alphaMode` `BLEND`. `MASK` comes as a
+/// [`MaterialPart`] with its cutoff. Cameras in perspective and the lights of `KHR_lights_punctual` stand where their nodes are at rest. Morph targets have their
 /// default weights. A skinned mesh stands as its joints place it at rest, in world space, whatever its own node says
 /// (glTF 2.0, 3.7.3.3).
 ///
@@ -70,7 +70,7 @@ fn load_with<T>(
         next_number: 0,
         primitives_left_out: 0,
         left_out: LeftOut::default(),
-        with_alpha: 0,
+        blended: 0,
         textures: Textures::new(path, read_beside),
     };
     let mut file = MeshFile::default();
@@ -98,14 +98,17 @@ fn load_with<T>(
     Ok((file, more))
 }
 
+/// What `alphaCutoff` is where a file does not say it (glTF 2.0, 3.9.4).
+const DEFAULT_ALPHA_CUTOFF: f32 = 0.5;
+
 struct Loader<'a> {
     data: Data<'a>,
     world_from_nodes: Vec<DMat4>,
     next_number: u32,
     primitives_left_out: usize,
     left_out: LeftOut,
-    /// Primitives whose alpha would cut or blend them.
-    with_alpha: usize,
+    /// Primitives whose alpha would blend them with what is behind.
+    blended: usize,
     textures: Textures<'a>,
 }
 
@@ -163,18 +166,29 @@ impl Loader<'_> {
             let in_mesh = |triangle: [u32; 3]| triangle.map(|vertex| first_vertex + vertex);
             let first_triangle = mesh.triangles.len() as u32;
             mesh.triangles.extend(triangles.into_iter().map(in_mesh));
-            self.with_alpha += usize::from(primitive.material().alpha_mode() != AlphaMode::Opaque);
-            if let Some(TexturedVertices { texture, coordinates }) =
-                self.textures.of_primitive(&primitive, vertex_count, &self.data)?
-            {
-                mesh.texture_coordinates.resize(first_vertex as usize, [0.0; 2]);
-                mesh.texture_coordinates.extend(coordinates);
+            let texture = match self.textures.of_primitive(&primitive, vertex_count, &self.data)? {
+                Some(TexturedVertices { texture, coordinates }) => {
+                    mesh.texture_coordinates.resize(first_vertex as usize, [0.0; 2]);
+                    mesh.texture_coordinates.extend(coordinates);
+                    Some(texture)
+                }
+                None => None,
+            };
+            let alpha_cutoff = self.alpha_cutoff(&primitive, &place)?;
+            if alpha_cutoff.is_some() {
+                mesh.alphas.resize(first_vertex as usize, 1.0);
+                mesh.alphas.extend(vertices.alphas);
+            }
+            if texture.is_some() || alpha_cutoff.is_some() {
                 let triangles = first_triangle..mesh.triangles.len() as u32;
-                mesh.textured_parts.push(TexturedPart { triangles, texture });
+                mesh.parts.push(MaterialPart { triangles, texture, alpha_cutoff });
             }
         }
-        if !mesh.textured_parts.is_empty() {
+        if !mesh.texture_coordinates.is_empty() {
             mesh.texture_coordinates.resize(mesh.positions.len(), [0.0; 2]);
+        }
+        if !mesh.alphas.is_empty() {
+            mesh.alphas.resize(mesh.positions.len(), 1.0);
         }
         mesh.complete_normals();
         let world_from_object = match joint_matrices {
@@ -182,6 +196,21 @@ impl Loader<'_> {
             None => self.world_from_nodes[node.index()],
         };
         Ok(Some((mesh, world_from_object)))
+    }
+
+    /// Alpha below which a primitive has nothing; none where its alpha cuts nothing.
+    fn alpha_cutoff(&mut self, primitive: &Primitive, place: &str) -> Result<Option<f32>, LoadError> {
+        let material = primitive.material();
+        self.blended += usize::from(material.alpha_mode() == AlphaMode::Blend);
+        if material.alpha_mode() != AlphaMode::Mask {
+            return Ok(None);
+        }
+        let cutoff = material.alpha_cutoff().unwrap_or(DEFAULT_ALPHA_CUTOFF);
+        if cutoff.is_finite() && cutoff >= 0.0 {
+            // No alpha is below 0.
+            return Ok(Some(cutoff).filter(|cutoff| *cutoff > 0.0));
+        }
+        Err(self.data.malformed(place.to_owned(), "has an alphaCutoff that is no number from 0 on; correct it"))
     }
 
     /// The next numbers of the file.
@@ -206,10 +235,10 @@ impl Loader<'_> {
                 self.left_out.indices
             ));
         }
-        if self.with_alpha > 0 {
+        if self.blended > 0 {
             warnings.push(format!(
-                "{} primitives have alphaMode MASK or BLEND; alpha is not read: they are seen, and cast, whole",
-                self.with_alpha
+                "{} primitives have alphaMode BLEND; their alpha is not read: they are seen, and cast, whole",
+                self.blended
             ));
         }
         warnings.extend(self.textures.into_warnings());

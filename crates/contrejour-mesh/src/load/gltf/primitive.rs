@@ -5,7 +5,6 @@ use gltf::{Primitive, Semantic};
 
 use super::accessor::{Data, Integers};
 use crate::LoadError;
-use crate::load::is_finite;
 
 /// Vertices of a primitive before they are rounded to 32 bits.
 pub(super) struct Vertices {
@@ -14,6 +13,8 @@ pub(super) struct Vertices {
     pub(super) normals: Vec<[f64; 3]>,
     /// Linear; as many as positions.
     pub(super) colors: Vec<[f32; 3]>,
+    /// As many as positions.
+    pub(super) alphas: Vec<f32>,
 }
 
 /// What a triangle primitive holds that is left out.
@@ -23,7 +24,7 @@ pub(super) struct LeftOut {
     pub(super) indices: usize,
 }
 
-/// Reads positions, normals and colours with morph targets at their default weights.
+/// Reads positions, normals, colours and alpha with morph targets at their default weights.
 pub(super) fn read_vertices(
     primitive: &Primitive,
     weights: &[f32],
@@ -50,7 +51,10 @@ pub(super) fn read_vertices(
             add_scaled(&mut normals, &data.read_attribute(&accessor, Integers::AsDeclared, count)?, weight);
         }
     }
-    Ok(Some(Vertices { positions, normals, colors: read_colors(primitive, count, data)? }))
+    let colors = read_colors(primitive, count, data)?;
+    let alphas = colors.iter().map(|[_, _, _, alpha]| *alpha).collect();
+    let colors = colors.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
+    Ok(Some(Vertices { positions, normals, colors, alphas }))
 }
 
 fn add_scaled(base: &mut [[f64; 3]], differences: &[[f64; 3]], weight: f64) {
@@ -61,25 +65,23 @@ fn add_scaled(base: &mut [[f64; 3]], differences: &[[f64; 3]], weight: f64) {
     }
 }
 
-fn read_colors(primitive: &Primitive, count: usize, data: &Data) -> Result<Vec<[f32; 3]>, LoadError> {
-    let [red, green, blue, _] = primitive.material().pbr_metallic_roughness().base_color_factor();
-    let factor = [red, green, blue].map(|channel| channel.clamp(0.0, 1.0));
-    let times_factor = |red: f64, green: f64, blue: f64| {
-        let color = [red as f32, green as f32, blue as f32];
-        [0, 1, 2].map(|channel| (factor[channel] * color[channel]).clamp(0.0, 1.0))
-    };
+fn read_colors(primitive: &Primitive, count: usize, data: &Data) -> Result<Vec<[f32; 4]>, LoadError> {
+    let factor =
+        primitive.material().pbr_metallic_roughness().base_color_factor().map(|channel| channel.clamp(0.0, 1.0));
+    let times_factor =
+        |color: [f64; 4]| [0, 1, 2, 3].map(|channel| (factor[channel] * color[channel] as f32).clamp(0.0, 1.0));
     let Some(accessor) = primitive.get(&Semantic::Colors(0)) else {
-        return Ok(vec![times_factor(1.0, 1.0, 1.0); count]);
+        return Ok(vec![factor; count]);
     };
-    let colors: Vec<[f32; 3]> = if accessor.dimensions().multiplicity() == 4 {
+    let colors: Vec<[f32; 4]> = if accessor.dimensions().multiplicity() == 4 {
         let colors = data.read_attribute::<4>(&accessor, Integers::Normalized, count)?;
-        colors.iter().map(|&[r, g, b, _]| times_factor(r, g, b)).collect()
+        colors.into_iter().map(times_factor).collect()
     } else {
         let colors = data.read_attribute::<3>(&accessor, Integers::Normalized, count)?;
-        colors.iter().map(|&[r, g, b]| times_factor(r, g, b)).collect()
+        colors.iter().map(|&[red, green, blue]| times_factor([red, green, blue, 1.0])).collect()
     };
     // What is not a number stays so when it is clamped.
-    if colors.iter().copied().all(is_finite) {
+    if colors.as_flattened().iter().all(|channel| channel.is_finite()) {
         return Ok(colors);
     }
     let place = format!("accessor {}", accessor.index());

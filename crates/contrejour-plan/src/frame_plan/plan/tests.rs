@@ -2,14 +2,23 @@ use glam::{DMat4, DVec3};
 
 use super::*;
 use crate::{
-    AlphaRemap, CasterFacts, DepthPrecision, EntryPoints, Light, LightKind, MapSampler, MeshFacts, ObjectBox,
-    PagedCaster, SettingsError, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, TextureFormat,
+    AlphaRemap, CasterFacts, DepthPrecision, EntryPoints, Light, LightKind, MapSampler, MaskFacts, MeshFacts,
+    ObjectBox, PagedCaster, SettingsError, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, TextureFormat,
     VarianceSettings, views,
 };
 
+mod masked;
+
 /// A closed cube of 12 faces: 18 edges, 6 of them coplanar diagonals that can be in no silhouette.
-const CUBE: MeshFacts =
-    MeshFacts { vertices: 8, faces: 12, two_face_edges: 12, other_edges: 0, incidence_words: 0, vertex_edges: 24 };
+const CUBE: MeshFacts = MeshFacts {
+    vertices: 8,
+    faces: 12,
+    two_face_edges: 12,
+    other_edges: 0,
+    incidence_words: 0,
+    vertex_edges: 24,
+    is_masked: false,
+};
 
 /// A closed torus of a million faces.
 const TORUS: MeshFacts = MeshFacts {
@@ -19,6 +28,7 @@ const TORUS: MeshFacts = MeshFacts {
     other_edges: 0,
     incidence_words: 0,
     vertex_edges: 3_000_000,
+    is_masked: false,
 };
 
 /// Looks down at the origin from a height of 10; the sides of its frustum are at 45 degrees.
@@ -49,6 +59,7 @@ fn cube_scene() -> SceneFacts {
         pieces: Vec::new(),
         casters: vec![caster_at("cube", 0, DVec3::ZERO)],
         receivers: vec!["floor".to_owned()],
+        masks: MaskFacts::default(),
     }
 }
 
@@ -139,6 +150,9 @@ fn assert_consistent(plan: &FramePlan) {
         if pass.draws_smoothies() {
             what.push(Omitted::SmoothiePasses);
         }
+        if matches!(pass, Pass::MaskedHardwareShadowMap | Pass::MaskedShadowMap) {
+            what.push(Omitted::MaskedPasses);
+        }
         assert_eq!(plan.has_pass(pass), !has_reason(&what), "{}", pass.name());
     }
 }
@@ -183,7 +197,7 @@ fn sizes_follow_the_counts() {
     assert_eq!(bytes(&plan, BufferKind::Undecided), Some(24 * 8));
     assert_eq!(bytes(&plan, BufferKind::Silhouettes), Some(24 * 16));
     assert_eq!(bytes(&plan, BufferKind::RefineArgs), Some(2 * 12));
-    assert_eq!(bytes(&plan, BufferKind::DrawArgs), Some(3 * 16));
+    assert_eq!(bytes(&plan, BufferKind::DrawArgs), Some(4 * 16));
     let counts = ViewCounts {
         casters: 2,
         face_blocks: 2,
