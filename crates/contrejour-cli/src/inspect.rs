@@ -30,6 +30,8 @@ struct MeshReport {
     name: String,
     /// Vertices of the file that no face uses and that the loader did not keep.
     unlisted_vertices: u32,
+    /// Triangles that alpha masks cut: they count in the report, and have no silhouette when they cast.
+    masked_triangles: u64,
     report: TopologyReport,
 }
 
@@ -120,7 +122,12 @@ fn textures(meshes: &[TriangleMesh]) -> Vec<TextureReport> {
 
 fn report(mesh: &TriangleMesh) -> Result<MeshReport, Failure> {
     let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())?;
-    Ok(MeshReport { name: mesh.name.clone(), unlisted_vertices: mesh.unlisted_vertices, report: topology.report })
+    Ok(MeshReport {
+        name: mesh.name.clone(),
+        unlisted_vertices: mesh.unlisted_vertices,
+        masked_triangles: mesh.cut_parts().map(|(part, _)| part.triangles.len() as u64).sum(),
+        report: topology.report,
+    })
 }
 
 fn text(file: &FileReport) -> String {
@@ -130,6 +137,9 @@ fn text(file: &FileReport) -> String {
         text += &format!("\nmesh {name}\n{}", mesh.report);
         if mesh.unlisted_vertices > 0 {
             text += &format!("{:<22}{:>10}\n", "unused in the file", mesh.unlisted_vertices);
+        }
+        if mesh.masked_triangles > 0 {
+            text += &format!("{:<22}{:>10}  without silhouettes\n", "cut by alpha masks", mesh.masked_triangles);
         }
     }
     if file.meshes.is_empty() {

@@ -10,7 +10,7 @@ mod svg;
 
 use std::sync::Arc;
 
-use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh};
+use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh, TriangleMesh};
 use contrejour_plan::{Light, LightKind};
 use glam::{DVec3, DVec4, Vec3};
 
@@ -23,6 +23,7 @@ pub fn run(arguments: &SilhouetteArguments) -> Result<(), Failure> {
     let light = light(&arguments.light)?;
     let file = contrejour_mesh::load(&arguments.mesh)?;
     file.warnings.iter().for_each(|warning| warn(warning));
+    warn_of_masks(&file);
     let placed = placed_meshes(&file)?;
     let silhouettes = match arguments.on {
         Finder::Gpu => find::on_gpu(&placed, &light)?,
@@ -75,10 +76,18 @@ fn homogeneous(light: &Light) -> DVec4 {
     }
 }
 
+fn warn_of_masks(file: &MeshFile) {
+    let cut = |mesh: &TriangleMesh| mesh.cut_parts().map(|(part, _)| part.triangles.len()).sum::<usize>();
+    let count: usize = file.nodes.iter().map(|node| cut(&file.meshes[node.mesh])).sum();
+    if count > 0 {
+        warn(&format!("{count} triangles are cut by alpha masks, so they have no silhouette"));
+    }
+}
+
 fn placed_meshes(file: &MeshFile) -> Result<Vec<PlacedMesh<'_>>, Failure> {
     let placed = file.nodes.iter().map(|node| {
         let mesh = &file.meshes[node.mesh];
-        let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())?;
+        let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.uncut_triangles(), &BuildOptions::default())?;
         Ok(PlacedMesh { mesh, topology: Arc::new(topology), world_from_object: node.world_from_object })
     });
     placed.collect()

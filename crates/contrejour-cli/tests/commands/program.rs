@@ -118,6 +118,11 @@ impl Run {
         serde_json::from_str(&self.stdout()?).map_err(|error| self.wrong(&format!("it should print JSON: {error}")))
     }
 
+    /// What it says on standard error.
+    pub fn told(&self) -> String {
+        String::from_utf8_lossy(&self.output.stderr).into_owned()
+    }
+
     /// Checks the exit status.
     pub fn ends_with(&self, status: i32) -> Result<(), String> {
         match self.output.status.code() == Some(status) {

@@ -32,6 +32,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("render::a_picture_has_the_size_asked_for", a_picture_has_the_size_asked_for),
         gpu_trial("render::an_orbit_is_a_picture_a_frame", an_orbit_is_a_picture_a_frame),
         gpu_trial("render::an_animation_is_a_picture_a_frame", an_animation_is_a_picture_a_frame),
+        gpu_trial("render::what_a_mask_cuts_is_not_there", what_a_mask_cuts_is_not_there),
         gpu_trial("render::a_camera_of_the_file_sees_it", a_camera_of_the_file_sees_it),
         gpu_trial("render::the_object_has_its_keys", the_object_has_its_keys),
         gpu_trial("render::views_are_pictures", views_are_pictures),
@@ -121,6 +122,46 @@ fn an_animation_is_a_picture_a_frame() -> Outcome {
         return Err(format!("the stage that deforms is not timed: {report}"));
     }
     if pictures.len() == names.len() { Ok(()) } else { Err("the model does not move".into()) }
+}
+
+/// A face whose alpha is above the cutoff is as one without a mask, in motion too, but for its silhouette; below the cutoff
+/// there is none.
+fn what_a_mask_cuts_is_not_there() -> Outcome {
+    let face = |alpha_mode: &str, alpha: f64| -> Result<String, String> {
+        let mut file: Value = serde_json::from_str(&widening_face()).map_err(|error| error.to_string())?;
+        let color = serde_json::json!({ "baseColorFactor": [1, 1, 1, alpha] });
+        file["materials"] = serde_json::json!([{ "alphaMode": alpha_mode, "pbrMetallicRoughness": color }]);
+        file["meshes"][0]["primitives"][0]["material"] = 0.into();
+        Ok(file.to_string())
+    };
+    let [whole, kept] = [face("OPAQUE", 0.6)?, face("MASK", 0.6)?];
+    let [cut, gone] = [face("MASK", 0.4)?, face("MASK", 0.0)?];
+    let files = [("whole.gltf", &whole), ("kept.gltf", &kept), ("cut.gltf", &cut), ("gone.gltf", &gone)];
+    let folder = Folder::with(&files.map(|(name, text)| (name, text.as_str())));
+    let picture = |name: &str, time: u32| -> Result<Vec<u8>, String> {
+        let still = "--size 64x40 --map-size 128 --technique pcf -o picture.png --animation widen --time";
+        folder.run(&format!("render {name}.gltf {still} {time}")).stdout()?;
+        std::fs::read(folder.path("picture.png")).map_err(|error| error.to_string())
+    };
+    if picture("kept", 1)? != picture("whole", 1)? || picture("kept", 0)? == picture("kept", 1)? {
+        return Err("a face that the mask keeps is not as one without a mask".into());
+    }
+    if picture("cut", 1)? == picture("whole", 1)? || picture("cut", 1)? != picture("gone", 1)? {
+        return Err("a face that the mask cuts is there".into());
+    }
+    let inspected = folder.run("inspect kept.gltf --json").json()?;
+    if inspected["meshes"][0]["masked_triangles"] != 1 {
+        return Err(format!("its masked triangles are not told: {inspected}"));
+    }
+    let plan = folder.run("plan kept.gltf").stdout()?;
+    if !plan.contains("masked_shadow_map") || !plan.contains("a mask cuts its faces") {
+        return Err(format!("the plan says nothing of the mask: {plan}"));
+    }
+    let silhouette = folder.run("silhouette kept.gltf --point 1,2,3 --on cpu");
+    if !silhouette.told().contains("1 triangles are cut by alpha masks") {
+        return Err(format!("that it has no silhouette is not told: {}", silhouette.told()));
+    }
+    Ok(())
 }
 
 fn a_camera_of_the_file_sees_it() -> Outcome {
