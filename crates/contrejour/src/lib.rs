@@ -68,7 +68,7 @@ pub mod prelude {
         CasterHandle, CasterInput, DeformInput, Deformer, EyeInput, LightHandle, MeshHandle, PassTimer, Positions,
         ShadowOptions, Shadows, Untimed,
     };
-    pub use contrejour_mesh::{BuildOptions, DeformingMesh, TopologyAwareMesh};
+    pub use contrejour_mesh::{AlphaMask, BuildOptions, DeformingMesh, MaskImage, MaskedMesh, TopologyAwareMesh};
     pub use contrejour_plan::{
         CascadeSettings, DepthBias, Eye, Light, LightKind, Outputs, ShadowSettings, SmoothieWidth, Technique,
     };
