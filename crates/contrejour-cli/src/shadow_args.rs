@@ -57,6 +57,17 @@ impl ShadowArguments {
         Ok(())
     }
 
+    /// Whether a technique is asked for, by its name or by what tunes it.
+    pub fn has_technique(&self) -> bool {
+        let is_tuned = !self.parameters.is_empty() || self.width.is_some() || self.unremapped_alpha || self.two_passes;
+        self.preset.is_some() || self.technique.is_some() || is_tuned
+    }
+
+    /// Whether a map size is asked for.
+    pub fn has_map_size(&self) -> bool {
+        self.preset.is_some() || self.map_size.is_some()
+    }
+
     /// A light's settings with what was asked for.
     pub fn applied_to(&self, scene: ShadowSettings) -> Result<ShadowSettings, ShadowArgumentError> {
         let mut settings = match &self.preset {

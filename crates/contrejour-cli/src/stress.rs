@@ -1,10 +1,13 @@
 //! `contrejour stress`: many moving lights over many moving casters.
 
+use std::collections::BTreeMap;
 use std::process::ExitCode;
 use std::time::Duration;
 
 use contrejour_lab::report::PlotUse;
-use contrejour_lab::stress::{Event, Motion, StressOptions, Summary, run as run_one, sweep};
+use contrejour_lab::stress::{
+    Event, LightMix, LightSummary, Motion, StressOptions, Summary, Variety, run as run_one, sweep,
+};
 use contrejour_plan::ShadowSettings;
 use contrejour_render::{Gpu, check_folder, save_file};
 
@@ -17,6 +20,11 @@ use crate::stress_args::StressArguments;
 const DIFFERENCE_FOUND: u8 = 1;
 
 pub fn run(arguments: &StressArguments) -> Result<ExitCode, Failure> {
+    // Lights of all kinds have settings of their own, but for those that are given.
+    let own = |is_given: bool| match arguments.kind {
+        LightMix::Mixed if !is_given => Variety::Own,
+        _ => Variety::Same,
+    };
     let options = StressOptions {
         lights: arguments.lights,
         kind: arguments.kind,
@@ -25,6 +33,9 @@ pub fn run(arguments: &StressArguments) -> Result<ExitCode, Failure> {
         motion: if arguments.still { Motion::Still } else { Motion::Walking },
         duration: Duration::from_secs_f64(arguments.seconds),
         settings: arguments.shadow.applied_to(ShadowSettings::default())?,
+        techniques: own(arguments.shadow.has_technique()),
+        map_sizes: own(arguments.shadow.has_map_size()),
+        softness: own(false),
         verify: arguments.verify,
         seed: arguments.seed,
     };
@@ -85,6 +96,7 @@ fn table(run: &Summary) -> String {
         format!(
             "scene      {lights} lights ({views} views), {casters} casters of {triangles_per_caster} triangles, seed {seed}"
         ),
+        format!("shadows    {}", shadows(&run.light_settings)),
         format!("frames     {frames}, {:.1} ms each on the wall", run.wall_ms_per_frame),
         format!(
             "CPU        {:.3} ms a frame: {:.3} upload, {:.3} record, {:.3} submit",
@@ -109,10 +121,30 @@ fn table(run: &Summary) -> String {
         lines.push(format!("program    {:.1} MiB early, {:.1} MiB late", mebibytes(early), mebibytes(late)));
     }
     if run.verified_light_frames > 0 {
-        lines.push(format!("verified   {} light-frames, {} differences", run.verified_light_frames, run.differences));
+        lines.push(format!(
+            "verified   {} light-frames, {} texels of pictures, {} differences",
+            run.verified_light_frames, run.verified_texels, run.differences
+        ));
     }
     lines.extend(run.stages.iter().map(|stage| format!("  {:<22} {:.3} ms", stage.name, stage.gpu_ms)));
     lines.join("\n")
+}
+
+/// How many lights have which technique, and the sizes of their maps.
+fn shadows(lights: &[LightSummary]) -> String {
+    let mut counts = BTreeMap::new();
+    for light in lights {
+        *counts.entry(light.technique).or_insert(0) += 1;
+    }
+    let techniques: Vec<_> = counts.iter().map(|(technique, count)| format!("{count} {technique}")).collect();
+    let sizes = || lights.iter().map(|light| light.map_size);
+    match (sizes().min(), sizes().max()) {
+        (Some(least), Some(most)) if least < most => {
+            format!("{}; maps of {least} to {most} texels", techniques.join(", "))
+        }
+        (Some(size), _) => format!("{}; maps of {size} texels", techniques.join(", ")),
+        (None, _) => "none".to_owned(),
+    }
 }
 
 fn mebibytes(bytes: u64) -> f64 {

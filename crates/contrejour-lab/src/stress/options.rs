@@ -17,12 +17,22 @@ pub enum Motion {
     Still,
 }
 
+/// Whether lights share a setting.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Variety {
+    /// All have the same.
+    #[default]
+    Same,
+    /// Each has its own, by the seed.
+    Own,
+}
+
 /// What a run is made of.
 #[derive(Clone, Debug)]
 pub struct StressOptions {
     /// Lights. Range: 0 to [`MAX_LIGHTS`](Self::MAX_LIGHTS). Default: 8.
     pub lights: usize,
-    /// Their kinds. Default: mixed.
+    /// Their kinds. Cascades follow an eye, which walks too. Default: mixed.
     pub kind: LightMix,
     /// Casters. Range: 0 to [`MAX_CASTERS`](Self::MAX_CASTERS). Default: 16.
     pub casters: usize,
@@ -32,8 +42,15 @@ pub struct StressOptions {
     pub motion: Motion,
     /// How long frames are drawn; one is drawn in any case. Default: 5 s.
     pub duration: Duration,
-    /// How shadows are made.
+    /// How shadows are made, but for what each light has of its own.
     pub settings: ShadowSettings,
+    /// Techniques: where each light has its own, three of five have smoothies, and the others take turns in the other
+    /// techniques. Default: the same.
+    pub techniques: Variety,
+    /// Map sizes: own ones are 256 to 1024 texels. Default: the same.
+    pub map_sizes: Variety,
+    /// How large the lights are: own ones are points, or up to four times as large as common. Default: the same.
+    pub softness: Variety,
     /// Whether frames that are taken at random are compared with exact arithmetic and with frames drawn from scratch.
     /// Default: no.
     pub verify: bool,
@@ -51,6 +68,9 @@ impl Default for StressOptions {
             motion: Motion::default(),
             duration: Duration::from_secs(5),
             settings: ShadowSettings::default(),
+            techniques: Variety::default(),
+            map_sizes: Variety::default(),
+            softness: Variety::default(),
             verify: false,
             seed: 1,
         }

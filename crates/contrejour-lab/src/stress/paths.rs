@@ -50,6 +50,19 @@ impl Path {
         }
     }
 
+    /// The path of an eye, or of what it looks at, around a point of a room of radius 1.
+    pub fn of_eye(random: &mut fastrand::Rng, middle: DVec3, reach: f64) -> Self {
+        let mut vector = |size: f64| size * DVec3::from([(); 3].map(|()| 2.0 * random.f64() - 1.0));
+        Self {
+            middle,
+            reach: vector(reach),
+            turns_a_second: DVec3::splat(0.1) + vector(0.05),
+            phase: vector(0.5),
+            scale: DVec3::ONE,
+            axis: DVec3::Y,
+        }
+    }
+
     /// The place in a frame.
     pub fn place(&self, frame: u64) -> DVec3 {
         self.middle + self.reach * self.angles(frame).map(f64::sin)

@@ -96,6 +96,7 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
     summary.cpu_record_ms = median(costs.record);
     summary.cpu_submit_ms = median(costs.submit);
     summary.verified_light_frames = verifier.light_frames;
+    summary.verified_texels = verifier.texels;
     summary.differences = verifier.differences;
     summary.first_difference = verifier.first_difference;
     Ok(summary)

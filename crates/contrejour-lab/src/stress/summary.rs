@@ -2,8 +2,10 @@
 
 use contrejour_gpu::{FrameStats, LightHandle, Shadows};
 use contrejour_layout::BLOCK_SIZE;
-use contrejour_plan::FramePlan;
+use contrejour_plan::{FramePlan, Light, LightKind};
 use serde::Serialize;
+
+use super::own::Own;
 
 /// What a run came to.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -12,6 +14,8 @@ pub struct Summary {
     pub device: String,
     /// Lights.
     pub lights: usize,
+    /// What each light is, in their order.
+    pub light_settings: Vec<LightSummary>,
     /// Views of all lights together.
     pub views: usize,
     /// Casters.
@@ -63,7 +67,9 @@ pub struct Summary {
     pub overflow_frames: u64,
     /// Lights of frames that were verified.
     pub verified_light_frames: u64,
-    /// Differences from exact arithmetic and from frames drawn from scratch.
+    /// Texels of pictures that were verified.
+    pub verified_texels: u64,
+    /// Differences from exact arithmetic and from frames drawn from scratch; in pictures each texel counts.
     pub differences: u64,
     /// The first of them, in words.
     pub first_difference: Option<String>,
@@ -94,6 +100,34 @@ impl Summary {
         self.memory_bytes = of_lights.chain(shared).map(|buffer| buffer.bytes).sum::<u64>()
             + textures.map(|texture| texture.bytes).sum::<u64>();
         self.views = lights.iter().map(|light| shadows.view_choice(*light).views()).sum();
+    }
+}
+
+/// What a light of a run is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LightSummary {
+    /// `spot`, `point`, `directional` or `cascaded`.
+    pub kind: &'static str,
+    /// The name of its technique.
+    pub technique: &'static str,
+    /// Texels along a side of its maps.
+    pub map_size: u32,
+    /// How large it is over the common size of its kind; 0 is a point.
+    pub softness: f64,
+    /// Linear colour.
+    pub color: [f32; 3],
+}
+
+impl LightSummary {
+    pub(super) fn new(light: &Light, own: &Own) -> Self {
+        let kind = match light.kind {
+            LightKind::Spot { .. } => "spot",
+            LightKind::Point { .. } => "point",
+            LightKind::Directional { .. } => "directional",
+            LightKind::Cascaded { .. } => "cascaded",
+        };
+        let Own { settings, softness, color } = *own;
+        Self { kind, technique: settings.technique.name(), map_size: settings.map_size, softness, color }
     }
 }
 

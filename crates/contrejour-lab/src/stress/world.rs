@@ -6,15 +6,17 @@ use contrejour_gpu::{
     CasterHandle, CasterInput, DeformHandle, DeformInput, Deformer, LightHandle, Positions, ShadowOptions, Shadows,
 };
 use contrejour_mesh::{BuildOptions, PartPose, TopologyAwareMesh};
-use contrejour_plan::{Light, ShadowSettings};
+use contrejour_plan::{Eye, Light, LightKind, ShadowSettings};
 use contrejour_render::Gpu;
-use glam::DMat4;
+use contrejour_scene::Camera;
+use glam::{DMat4, DVec3};
 
 use super::error::StressError;
 use super::flexible::Flexible;
 use super::options::{Motion, StressOptions};
+use super::own::{Own, of_lights};
 use super::paths::Path;
-use super::summary::Summary;
+use super::summary::{LightSummary, Summary};
 use crate::torus::{Triangles, torus};
 
 /// Everything of a run that moves.
@@ -25,6 +27,9 @@ pub(super) struct World {
     pub flexible: Flexible,
     casters: Vec<Path>,
     lights: Vec<Path>,
+    own: Vec<Own>,
+    eye: Path,
+    eye_target: Path,
     options: StressOptions,
     room: f64,
 }
@@ -35,6 +40,7 @@ pub(super) struct Moment {
     casters: Vec<DMat4>,
     poses: Vec<PartPose>,
     lights: Vec<Light>,
+    eye: Eye,
 }
 
 /// A world on a device.
@@ -50,6 +56,18 @@ pub(super) struct Placed {
 /// One caster in so many deforms, where things move.
 const FLEXIBLE_OF: usize = 4;
 
+/// Where the eye is around, over the room's radius, from the middle of the room.
+const EYE: DVec3 = DVec3::new(0.95, 1.2, 2.7);
+
+/// What it looks at, over the same.
+const EYE_TARGET: DVec3 = DVec3::new(0.0, -0.2, 0.0);
+
+/// The farthest that it sees, over the same: the floor of pictures ends before.
+const EYE_FAR: f64 = 7.0;
+
+/// Width over height of what it sees, where no picture is drawn.
+const EYE_ASPECT: f64 = 16.0 / 9.0;
+
 impl World {
     pub fn new(options: &StressOptions) -> Result<Self, StressError> {
         options.check()?;
@@ -61,12 +79,16 @@ impl World {
         // As crowded for any number of casters.
         let room = 2.0 * (options.casters as f64).cbrt().max(1.0);
         let mut random = fastrand::Rng::with_seed(options.seed);
+        let mut random_of_eye = fastrand::Rng::with_seed(options.seed ^ 0xe7e);
         Ok(Self {
             mesh: Arc::new(topology),
             triangles: mesh,
             flexible,
             casters: (0..options.casters).map(|index| Path::of_caster(&mut random, index, room)).collect(),
             lights: (0..options.lights).map(|_| Path::of_light(&mut random)).collect(),
+            own: of_lights(options),
+            eye: Path::of_eye(&mut random_of_eye, EYE, 0.4),
+            eye_target: Path::of_eye(&mut random_of_eye, EYE_TARGET, 0.3),
             options: options.clone(),
             room,
         })
@@ -114,8 +136,34 @@ impl World {
     /// The lights in a frame.
     pub fn lights(&self, frame: u64) -> impl Iterator<Item = Light> {
         let moment = self.path_frame(frame);
-        let light = move |(index, path): (usize, &Path)| self.options.kind.light(index, path.place(moment), self.room);
-        self.lights.iter().enumerate().map(light)
+        let light = move |(index, (path, own)): (usize, (&Path, &Own))| Light {
+            kind: self.options.kind.light(index, path.place(moment), self.room, own.softness),
+            color: own.color,
+        };
+        self.lights.iter().zip(&self.own).enumerate().map(light)
+    }
+
+    /// How the shadow of a light is made.
+    pub fn settings(&self, light: usize) -> &ShadowSettings {
+        &self.own[light].settings
+    }
+
+    /// The camera of pictures in a frame.
+    pub fn camera(&self, frame: u64) -> Camera {
+        let moment = self.path_frame(frame);
+        Camera {
+            eye: self.room * self.eye.place(moment),
+            target: self.room * self.eye_target.place(moment),
+            up: DVec3::Y,
+            fov_y: 0.8,
+            near: 0.05 * self.room,
+            far: EYE_FAR * self.room,
+        }
+    }
+
+    /// The eye that cascades follow in a frame.
+    pub fn eye(&self, frame: u64) -> Eye {
+        self.camera(frame).as_eye(EYE_ASPECT)
     }
 
     /// Where everything is in a frame.
@@ -124,6 +172,7 @@ impl World {
             casters: self.casters(frame).collect(),
             poses: self.flexible_poses(frame),
             lights: self.lights(frame).collect(),
+            eye: self.eye(frame),
         }
     }
 
@@ -143,12 +192,9 @@ impl World {
             casters: self.options.casters,
             triangles_per_caster: self.triangles.triangles.len(),
             seed: self.options.seed,
+            light_settings: self.lights(0).zip(&self.own).map(|(light, own)| LightSummary::new(&light, own)).collect(),
             ..Summary::default()
         }
-    }
-
-    pub fn settings(&self) -> &ShadowSettings {
-        &self.options.settings
     }
 
     /// The world as it is in a frame.
@@ -169,9 +215,13 @@ impl World {
             let positions = positions.unwrap_or_default();
             casters.push(shadows.add_caster(&CasterInput { mesh, world_from_object, positions })?);
         }
-        let options = ShadowOptions { settings: *self.settings(), ..ShadowOptions::default() };
-        let lights = self.lights(frame).map(|light| shadows.add_light(&light, &options));
-        let lights = lights.collect::<Result<_, _>>()?;
+        let mut lights = Vec::new();
+        for (index, light) in self.lights(frame).enumerate() {
+            let options = ShadowOptions { settings: *self.settings(index), ..ShadowOptions::default() };
+            let handle = shadows.add_light(&light, &options)?;
+            show_eye(&mut shadows, handle, &light, &self.eye(frame))?;
+            lights.push(handle);
+        }
         Ok(Placed { shadows, deformer, casters, lights, flexible })
     }
 }
@@ -185,6 +235,7 @@ impl Placed {
         }
         for (handle, light) in self.lights.iter().zip(&moment.lights) {
             self.shadows.set_light(*handle, light)?;
+            show_eye(&mut self.shadows, *handle, light, &moment.eye)?;
         }
         Ok(())
     }
@@ -192,6 +243,14 @@ impl Placed {
     /// Where the positions of the casters that deform are, in their order.
     pub fn flexible_positions(&self) -> impl Iterator<Item = Positions> {
         self.flexible.iter().filter_map(|handle| self.deformer.positions(*handle))
+    }
+}
+
+/// Says which eye a light follows, where it follows any.
+fn show_eye(shadows: &mut Shadows, handle: LightHandle, light: &Light, eye: &Eye) -> Result<(), StressError> {
+    match light.kind {
+        LightKind::Cascaded { .. } => Ok(shadows.set_eye(handle, eye)?),
+        _ => Ok(()),
     }
 }
 

@@ -1,14 +1,19 @@
 //! Frames against exact arithmetic, and against frames drawn from scratch.
 
-use contrejour_gpu::{LightHandle, Positions, ShadowLightError, Shadows, Untimed};
+mod maps;
+mod pictures;
+#[cfg(test)]
+mod tests;
+
+use contrejour_gpu::{LightHandle, Positions, ShadowLightError, Untimed};
 use contrejour_layout::{CasterLight, Counters, SilhouetteEdge};
 use contrejour_oracle::{ManyLights, OracleEdge, OracleTopology};
 use contrejour_plan::{BufferKind, NearOne, ObjectBox, Stage, View, caster_light, frame_views};
-use contrejour_render::{Gpu, copied_buffer, read_buffer, read_rows};
+use contrejour_render::{Gpu, copied_buffer, read_buffer};
 use glam::{DMat4, DVec3};
 
 use super::error::StressError;
-use super::run::settle;
+use super::pictures::Pictures;
 use super::world::{Placed, World};
 
 /// Differences so far.
@@ -16,7 +21,10 @@ pub(super) struct Verifier<'a> {
     world: &'a World,
     rigid: ManyLights,
     flexible: OracleTopology,
+    /// The pictures of the run, from the first verified frame on.
+    walked: Option<Pictures>,
     pub light_frames: u64,
+    pub texels: u64,
     pub differences: u64,
     pub first_difference: Option<String>,
 }
@@ -41,20 +49,36 @@ impl<'a> Verifier<'a> {
     pub fn new(world: &'a World) -> Self {
         let topology = OracleTopology::new(&world.mesh.positions, &world.triangles.triangles);
         let rigid = ManyLights::new(&topology);
-        Self { world, rigid, flexible: topology, light_frames: 0, differences: 0, first_difference: None }
+        Self {
+            world,
+            rigid,
+            flexible: topology,
+            walked: None,
+            light_frames: 0,
+            texels: 0,
+            differences: 0,
+            first_difference: None,
+        }
     }
 
-    /// Compares what a frame left with the same frame drawn from scratch, then draws all lights once more and holds the
-    /// lists of each view against exact arithmetic.
+    /// Compares what a frame left, and its picture, with the same frame drawn from scratch, then draws all lights once more
+    /// and holds the lists of each view against exact arithmetic.
     pub fn check(&mut self, gpu: &Gpu, placed: &mut Placed, frame: u64) -> Result<(), StressError> {
         // First what the frame left: some of it may have been kept from frames before.
         self.check_maps(gpu, placed, frame)?;
+        self.check_picture(gpu, frame)?;
+        self.check_lists(gpu, placed, frame)
+    }
+
+    fn check_lists(&mut self, gpu: &Gpu, placed: &mut Placed, frame: u64) -> Result<(), StressError> {
         let deformed = self.deformed(gpu, placed, frame)?;
         let left = draw_again(gpu, placed)?;
         let places: Vec<_> = self.world.casters(frame).collect();
         let lights: Vec<_> = self.world.lights(frame).collect();
+        let eye = self.world.eye(frame);
         for (index, (handle, light)) in placed.lights.iter().zip(&lights).enumerate() {
-            let views = frame_views(light, None, self.world.settings()).map_err(ShadowLightError::from)?.views;
+            let settings = self.world.settings(index);
+            let views = frame_views(light, Some(&eye), settings).map_err(ShadowLightError::from)?.views;
             let of_light: Vec<_> = left.iter().filter(|left| left.light == *handle).collect();
             let are_drawn = of_light.iter().map(|left| left.view).eq(0..views.len());
             if !are_drawn && !places.is_empty() {
@@ -63,7 +87,7 @@ impl<'a> Verifier<'a> {
             }
             for (left, view) in of_light.iter().zip(&views) {
                 let what = format!("frame {frame}, light {index}, view {}", left.view);
-                self.check_view(gpu, left, view, &places, &deformed, &what)?;
+                self.check_view(gpu, left, (view, view.reach_ndc(settings)), &places, &deformed, &what)?;
             }
             self.light_frames += u64::from(are_drawn);
         }
@@ -74,7 +98,7 @@ impl<'a> Verifier<'a> {
         &mut self,
         gpu: &Gpu,
         left: &Left,
-        view: &View,
+        (view, reach_ndc): (&View, f64),
         places: &[DMat4],
         deformed: &[ManyLights],
         what: &str,
@@ -88,7 +112,6 @@ impl<'a> Verifier<'a> {
         }
         let mesh = &*self.world.mesh;
         let near_one = NearOne::of_box(mesh.bounds_min, mesh.bounds_max);
-        let reach_ndc = view.reach_ndc(self.world.settings());
         let mut casting = 0;
         for (index, place) in places.iter().enumerate() {
             let expected = caster_light(view, place, &near_one);
@@ -172,18 +195,6 @@ impl<'a> Verifier<'a> {
         Ok(deformed)
     }
 
-    /// Holds the maps against those of a scene that knows nothing of the frames before.
-    fn check_maps(&mut self, gpu: &Gpu, placed: &Placed, frame: u64) -> Result<(), StressError> {
-        let mut scratch = self.world.place(gpu, frame)?;
-        settle(gpu, &mut scratch)?;
-        for (index, (light, anew)) in placed.lights.iter().zip(&scratch.lights).enumerate() {
-            if maps(gpu, &placed.shadows, *light)? != maps(gpu, &scratch.shadows, *anew)? {
-                self.differ(&format!("frame {frame}, light {index}: its maps are not those drawn from scratch"));
-            }
-        }
-        Ok(())
-    }
-
     fn differ(&mut self, difference: &str) {
         self.differences += 1;
         self.first_difference.get_or_insert_with(|| difference.to_owned());
@@ -226,60 +237,4 @@ fn read<T: bytemuck::AnyBitPattern + bytemuck::NoUninit>(
     size: u64,
 ) -> Result<Vec<T>, StressError> {
     Ok(bytemuck::pod_collect_to_vec(&read_buffer(gpu, buffer, size)?))
-}
-
-/// All texels that receivers look up.
-fn maps(gpu: &Gpu, shadows: &Shadows, light: LightHandle) -> Result<Vec<u8>, StressError> {
-    let maps = shadows.maps(light);
-    let kinds = shadows.plan(light).and_then(|plan| plan.visibility).map_or(&[][..], |kind| kind.textures());
-    let mut bytes = Vec::new();
-    for kind in kinds {
-        let map = maps.of(*kind).ok_or(StressError::NoMap { map: kind.name() })?;
-        let aspect = map.format().has_depth_aspect().then_some(wgpu::TextureAspect::DepthOnly);
-        let texel = map.format().block_copy_size(aspect).unwrap_or(4);
-        for layer in 0..map.depth_or_array_layers() {
-            read_rows(gpu, map, [layer, 0], texel, |row| bytes.extend_from_slice(row))?;
-        }
-    }
-    Ok(bytes)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::stress::StressOptions;
-
-    #[test]
-    fn a_wrong_edge_a_missing_one_and_a_wrong_side_are_found() {
-        let options = StressOptions { casters: 4, triangles_per_caster: 200, ..StressOptions::default() };
-        let world = World::new(&options).expect("the options are good");
-        let verifier = Verifier::new(&world);
-        let light = CasterLight { light_object: [2.0_f32, 3.0, 0.5, 1.0].map(f32::to_bits), ..CasterLight::default() };
-        let lit = verifier.rigid.lit_faces(light.light_object.map(f32::from_bits), false);
-        let edge_id = |edge: &OracleEdge| {
-            let is_it =
-                |known: &contrejour_layout::Edge| [known.low_vertex, known.high_vertex] == [edge.low, edge.high];
-            world.mesh.edges.iter().position(is_it).expect("the oracle knows the mesh's edges") as u32
-        };
-        let sound: Vec<_> = (verifier.rigid.silhouette(&lit).iter())
-            .map(|edge| SilhouetteEdge {
-                caster: 0,
-                edge_id: edge_id(edge),
-                left: edge.left.cast_unsigned(),
-                right: edge.right.cast_unsigned(),
-            })
-            .collect();
-        let passes = |edges: &[SilhouetteEdge]| verifier.has_silhouette(&verifier.rigid, &light, 0, edges);
-        assert!(sound.len() > 10 && passes(&sound));
-
-        let with = |fault: fn(&mut Vec<SilhouetteEdge>)| {
-            let mut faulty = sound.clone();
-            fault(&mut faulty);
-            faulty
-        };
-        assert!(!passes(&with(|edges| edges.truncate(edges.len() - 1))));
-        assert!(!passes(&with(|edges| edges.push(edges[0]))));
-        assert!(!passes(&with(|edges| (edges[3].left, edges[3].right) = (edges[3].right, edges[3].left))));
-        assert!(!passes(&with(|edges| edges[5].edge_id ^= 1)));
-    }
 }
