@@ -1,6 +1,6 @@
 //! `contrejour report`: resume, shards, merge, and that two runs find the same.
 
-use contrejour_lab::report::{Disagreement, Report};
+use contrejour_lab::report::{Disagreement, Group, Report};
 use libtest_mimic::Trial;
 
 use crate::program::Folder;
@@ -17,6 +17,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("report::a_shard_says_that_it_is_a_part", a_shard_says_so),
         gpu_trial("report::shards_merge_into_what_one_run_finds", shards_merge),
         gpu_trial("report::goes_on_and_refuses_another_seed", goes_on),
+        gpu_trial("report::cascades_are_measured", cascades_are_measured),
         gpu_trial("report::redoes_the_figures_of_the_papers", figures_are_made),
     ]
 }
@@ -123,6 +124,29 @@ fn goes_on() -> Outcome {
     }
     let again = folder.run(&format!("{tiny} --sizes 32 --seed 9 --restart --json")).json()?;
     if again["groups"] == 1 { Ok(()) } else { Err(again.to_string()) }
+}
+
+/// Cascades follow the scene's camera: finer maps have smaller errors, and maps without texels to move by are refused first.
+fn cascades_are_measured() -> Outcome {
+    let scene = "[camera]\neye = [3, 2, 5]\ntarget = [0, 0, 0]\nfar = 30\n\
+                 [light]\nkind = \"directional\"\ntowards_light = [1, 2, 1]\ncascades = 3\n\
+                 [[mesh]]\nshape = { kind = \"box\", size = [12, 0.2, 12] }\ntranslate = [0, -1, 0]\n\
+                 [[mesh]]\nshape = { kind = \"torus\" }\n";
+    let folder = Folder::with(&[("cascaded.toml", scene)]);
+    let tiny = "report --quick --picture-size 64x48 --scenes cascaded.toml --techniques pcf,smoothies-by-light-size";
+    let refusal = folder.run(&format!("{tiny} --sizes 64,2 -o out")).refusal()?;
+    if !refusal.contains("at least 4 texels") || folder.names() != ["cascaded.toml"] {
+        return Err(format!("{refusal}; left are {:?}", folder.names()));
+    }
+    folder.run(&format!("{tiny} --sizes 16,256 -o out")).stdout()?;
+    let report = read(&folder, "out")?;
+    let of_group =
+        |group: &Group| group.contestants.iter().map(|contestant| contestant.errors.receivers.rmse).collect();
+    let errors: Vec<Vec<f64>> = report.groups.iter().map(of_group).collect();
+    match &errors[..] {
+        [coarse, fine] if coarse.len() > 1 && coarse.iter().zip(fine).all(|(coarse, fine)| fine < coarse) => Ok(()),
+        _ => Err(format!("the errors are {errors:?}")),
+    }
 }
 
 /// Every figure is made once and is on the page; a report of chosen techniques has none.

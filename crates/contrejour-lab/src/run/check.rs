@@ -22,6 +22,8 @@ pub(super) fn check(gpu: &Gpu, options: &RunOptions) -> Result<(), RunError> {
     for named in &options.scenes {
         let subject = Subject::new(gpu, named, options.effort.picture_size)?;
         let light = &subject.light;
+        // Cascades want more than a few texels.
+        options.sizes.iter().try_for_each(|map_size| subject.check_views(*map_size))?;
         let answers = subject.trace(light, &FEWEST_RAYS, 1, &|_| ())?;
         let in_maps = subject.in_maps(light)?;
         if !answers.iter().zip(in_maps).any(|(answer, in_maps)| in_maps && is_fair(answer)) {

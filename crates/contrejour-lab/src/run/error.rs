@@ -4,7 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use contrejour_mesh::{ReadFileError, TopologyError};
-use contrejour_plan::LightError;
+use contrejour_plan::{CascadeError, LightError};
 use contrejour_render::{ComposeError, DrawError, NewContestantError, NewJudgeError, ReadError, SaveError};
 use contrejour_scene::shapes::ShapeError;
 use contrejour_scene::{NoLight, SceneError};
@@ -124,6 +124,9 @@ pub enum RunError {
     /// The tracer does not take a receiver or an option.
     #[error(transparent)]
     Trace(#[from] TraceError),
+    /// The scene's light has no views.
+    #[error(transparent)]
+    Views(#[from] CascadeError),
     /// The scene's light is none.
     #[error(transparent)]
     Light(#[from] LightError),

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use contrejour_mesh::{BuildOptions, MaskedMesh, TopologyAwareMesh, TriangleMesh};
-use contrejour_plan::{Light, LightKind, ShadowSettings, View, views};
+use contrejour_plan::{Eye, FrameViews, Light, LightKind, ShadowSettings, View, frame_views};
 use contrejour_render::{Gpu, Judge};
 use contrejour_scene::{Scene, SceneLight};
 use contrejour_trace::{Holes, LightShape, OccluderMesh, Occluders, Receiver, TraceOptions, Visibility, trace};
@@ -100,11 +100,27 @@ impl Subject {
         Ok(trace(&self.occluders, &shape, &chosen, options, progress)?)
     }
 
-    /// For each receiver, whether a light's maps show it: what is outside is lit by definition and not compared.
+    /// For each receiver, whether a light's maps show it: what is outside is lit by definition and not compared. Where the
+    /// last cascade fades into light it shows less than there is, which says nothing of a technique, so that is outside too.
     pub fn in_maps(&self, light: &Light) -> Result<Vec<bool>, RunError> {
-        let views = views(&self.judge.local_space().light(light))?;
-        let is_in = |receiver: &Receiver| views.iter().any(|view| shows(view, receiver.position));
-        Ok(self.receivers.iter().map(is_in).collect())
+        let eye = self.eye_local();
+        let seen = self.views(light, &self.shadow)?;
+        Ok(self.receivers.iter().map(|receiver| is_shown(&seen, &eye, receiver.position)).collect())
+    }
+
+    /// Whether its light has views where maps are so large.
+    pub fn check_views(&self, map_size: u32) -> Result<(), RunError> {
+        self.views(&self.light, &ShadowSettings { map_size, ..self.shadow }).map(drop)
+    }
+
+    /// What a light looks through, in local space.
+    fn views(&self, light: &Light, settings: &ShadowSettings) -> Result<FrameViews, RunError> {
+        Ok(frame_views(&self.judge.local_space().light(light), Some(&self.eye_local()), settings)?)
+    }
+
+    /// What cascades follow.
+    fn eye_local(&self) -> Eye {
+        self.judge.local_space().camera(&self.scene.camera).as_eye(self.scene.aspect())
     }
 
     /// Faces of all casters, and edges that can be in their silhouettes.
@@ -165,6 +181,14 @@ impl NamedScene {
     }
 }
 
+/// Whether maps show a point as far as a light's shadow goes.
+fn is_shown(seen: &FrameViews, eye: &Eye, position: DVec3) -> bool {
+    match seen.cascades.as_ref().map(|cascades| &cascades.cascades[..]) {
+        Some([.., last]) => eye.depth_of(position) <= last.blend_depth,
+        _ => seen.views.iter().any(|view| shows(view, position)),
+    }
+}
+
 fn shows(view: &View, position: DVec3) -> bool {
     let clip = view.light_clip_from_world * position.extend(1.0);
     clip.w > 0.0 && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w && clip.z <= clip.w
@@ -180,4 +204,38 @@ fn holes<'a>(mesh: &TriangleMesh, masked: impl Iterator<Item = &'a Arc<MaskedMes
         part.is_some_and(|(triangles, masked)| !masked.keeps(triangle - triangles.start, weights))
     };
     mesh.cut_parts().next().map(|_| Holes::new(is_hole))
+}
+
+#[cfg(test)]
+mod tests {
+    use contrejour_plan::CascadeSettings;
+
+    use super::*;
+
+    #[test]
+    fn a_cascade_that_fades_into_light_shows_nothing_to_compare() {
+        let eye = Eye { position: DVec3::Y, forward: DVec3::NEG_Z, fov_y: 0.8, aspect: 1.5, near: 1.0, far: 21.0 };
+        let cascades =
+            CascadeSettings { count: 2, logarithmic_share: 0.0, border_share: 0.2, ..CascadeSettings::DEFAULT };
+        let kind = LightKind::Cascaded { towards_light: DVec3::ONE, angular_radius: 0.01, cascades };
+        let seen = |kind| {
+            let light = Light { kind, color: [1.0; 3] };
+            frame_views(&light, Some(&eye), &ShadowSettings::default()).expect("a good light")
+        };
+        // Slices end at 11 and 21, and the last one fades from 19 on; in the first one's border the second takes over.
+        for (depth, is_compared) in [(2.0, true), (10.5, true), (18.9, true), (19.1, false), (20.9, false)] {
+            let point = DVec3::new(0.3, 1.2, -depth);
+            assert_eq!(is_shown(&seen(kind), &eye, point), is_compared, "{depth}");
+        }
+        let kind = LightKind::Directional {
+            towards_light: DVec3::Y,
+            center: DVec3::ZERO,
+            half_extent: 5.0,
+            half_depth: 5.0,
+            angular_radius: 0.0,
+        };
+        for (x, is_compared) in [(0.0, true), (4.9, true), (5.1, false)] {
+            assert_eq!(is_shown(&seen(kind), &eye, x * DVec3::X), is_compared, "{x}");
+        }
+    }
 }
