@@ -35,11 +35,21 @@ pub enum WindowError {
 
 /// Shows a run until its time is over or the window is closed; Esc closes it too.
 pub fn run(options: &StressOptions) -> Result<Summary, Failure> {
-    let event_loop = EventLoop::new().map_err(|error| WindowError::Display(error.to_string()))?;
+    let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
     event_loop.set_control_flow(ControlFlow::Poll);
     let mut app = App { options, shown: None, ended: None };
-    event_loop.run_app(&mut app).map_err(|error| WindowError::Display(error.to_string()))?;
+    event_loop.run_app(&mut app).map_err(|error| no_display(&error))?;
     app.ended.unwrap_or_else(|| Err(WindowError::Display("it was closed before it was shown".into()).into()))
+}
+
+fn no_display(error: &dyn std::error::Error) -> WindowError {
+    WindowError::Display(without_place(&one_line(error)).to_owned())
+}
+
+/// winit begins what the system says with the place in its own source: `os error at /path/of/a/file.rs:12: ...`.
+fn without_place(told: &str) -> &str {
+    let said = told.strip_prefix("os error at ").and_then(|told| told.split_once(".rs:")?.1.split_once(": "));
+    said.map_or(told, |(_, said)| said.trim_end_matches('.'))
 }
 
 /// A run in a window.
@@ -65,7 +75,7 @@ impl App<'_> {
         let attributes = Window::default_attributes()
             .with_title("contrejour stress")
             .with_inner_size(LogicalSize::new(f64::from(SIZE[0]), f64::from(SIZE[1])));
-        let window = event_loop.create_window(attributes).map_err(|error| WindowError::Display(error.to_string()))?;
+        let window = event_loop.create_window(attributes).map_err(|error| no_display(&error))?;
         let window = Arc::new(window);
         let display = Box::new(event_loop.owned_display_handle());
         let instance = wgpu::Instance::new(Gpu::instance_descriptor().with_display_handle(display));
@@ -185,4 +195,18 @@ impl Shown {
 fn size_of_pictures(window: &Window) -> [u32; 2] {
     let size = window.inner_size();
     [size.width.max(1), size.height.max(1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_in_the_source_is_not_told() {
+        let told = "os error at /home/somebody/.cargo/winit-0.30.13/src/linux/mod.rs:765: neither WAYLAND_DISPLAY nor DISPLAY is set.";
+        assert_eq!(without_place(told), "neither WAYLAND_DISPLAY nor DISPLAY is set");
+        for told in ["the requested operation is not supported", "os error at once"] {
+            assert_eq!(without_place(told), told);
+        }
+    }
 }

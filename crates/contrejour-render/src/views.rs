@@ -1,5 +1,4 @@
-//! Pictures of what stands behind a picture: maps, visibility and silhouettes. Of a light with several views the maps are
-//! those of the first one.
+//! Pictures of what stands behind a picture: maps, visibility and silhouettes.
 
 use contrejour_gpu::{LightHandle, Untimed};
 use contrejour_layout::SilhouetteEdge;
@@ -18,7 +17,9 @@ use crate::targets::{COLOR_FORMAT, Targets};
 /// One view of the last frame.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// File name without ending. Where the scene has several lights it begins with `light-` and the light's number, from 1.
+    /// File name without ending. Where the scene has several lights it begins with `light-` and the light's number, from 1;
+    /// maps of a light with several views end with the cube's face, as `-positive-x`, or with `-cascade-` and the cascade's
+    /// number, from 1.
     pub name: String,
     /// The picture.
     pub picture: RgbaImage,
@@ -63,30 +64,42 @@ impl Renderer {
         Ok(views)
     }
 
+    /// The maps of a light, view by view.
     fn map_views(&self, light: Casting) -> Result<Vec<View>, ReadError> {
+        let kind = self.lights.local(light.0).kind;
+        let mut views = Vec::new();
+        for (layer, depths) in (0..).zip(self.depth_ranges(light)) {
+            let of_layer = self.maps_of_layer(light, layer, depths)?;
+            views.extend(of_layer.into_iter().map(|view| View { name: view.name + &suffix(&kind, layer), ..view }));
+        }
+        Ok(views)
+    }
+
+    fn maps_of_layer(&self, light: Casting, layer: u32, depths: [f64; 2]) -> Result<Vec<View>, ReadError> {
         let maps = self.cast.shadows.maps(light.1);
         let mut views = Vec::new();
         let mut push =
             |name: &str, MapView { picture, legend }| views.push(View { name: String::from(name), picture, legend });
-        let texels = |map| read_texels(&self.gpu, map);
+        let texels = |map| read_texels(&self.gpu, map, layer);
         let channel =
             |texels: &[[f32; 2]], channel: usize| -> Vec<f32> { texels.iter().map(|texel| texel[channel]).collect() };
-        let linear =
-            |depth: Vec<f32>| depth.into_iter().map(|depth| self.depth_unit(light) * depth).collect::<Vec<_>>();
+        let unit = self.depth_unit(light, depths);
+        let linear = |depth: Vec<f32>| depth.into_iter().map(|depth| unit * depth).collect::<Vec<_>>();
+        let depth_view = |depth: &[f32], size| depth_view(depth, size, depths[1] as f32, self.local.length_world(1.0));
         if let Some(map) = maps.shadow_depth {
-            push("shadow_map", self.linear_depth_view(light, &linear(channel(&texels(map)?, 0)), map.width()));
+            push("shadow_map", depth_view(&linear(channel(&texels(map)?, 0)), map.width()));
         } else if let Some(map) = maps.shadow_hardware_depth {
-            let depth = self.linear_from_hardware(light, &channel(&texels(map)?, 0));
-            push("shadow_map", self.linear_depth_view(light, &depth, map.width()));
+            let depth = self.linear_from_hardware(light, depths, &channel(&texels(map)?, 0));
+            push("shadow_map", depth_view(&depth, map.width()));
         }
         if let Some(map) = maps.smoothie_buffer {
             let texels = texels(map)?;
-            push("smoothie_depth", self.linear_depth_view(light, &linear(channel(&texels, 0)), map.width()));
+            push("smoothie_depth", depth_view(&linear(channel(&texels, 0)), map.width()));
             push("smoothie_alpha", alpha_view(&channel(&texels, 1), map.width()));
         }
         if let Some(map) = maps.smoothie_depth {
-            let depth = self.linear_from_hardware(light, &channel(&texels(map)?, 0));
-            push("smoothie_depth", self.linear_depth_view(light, &depth, map.width()));
+            let depth = self.linear_from_hardware(light, depths, &channel(&texels(map)?, 0));
+            push("smoothie_depth", depth_view(&depth, map.width()));
         }
         if let Some(map) = maps.smoothie_alpha {
             push("smoothie_alpha", alpha_view(&channel(&texels(map)?, 0), map.width()));
@@ -95,19 +108,13 @@ impl Renderer {
     }
 
     /// Depth in local units that 1 stands for in maps of linear depth.
-    fn depth_unit(&self, light: Casting) -> f32 {
+    fn depth_unit(&self, light: Casting, [_, far]: [f64; 2]) -> f32 {
         let precision = self.cast.shadows.plan(light.1).map(|plan| plan.settings.depth_precision);
-        if precision == Some(DepthPrecision::Bits16) { self.depth_range(light).1 as f32 } else { 1.0 }
-    }
-
-    fn linear_depth_view(&self, light: Casting, depth: &[f32], size: u32) -> MapView {
-        let (_, far) = self.depth_range(light);
-        depth_view(depth, size, far as f32, self.local.length_world(1.0))
+        if precision == Some(DepthPrecision::Bits16) { far as f32 } else { 1.0 }
     }
 
     /// Linear depth from clip z, as the visibility function of two textures does it.
-    fn linear_from_hardware(&self, light: Casting, ndc_z: &[f32]) -> Vec<f32> {
-        let (near, far) = self.depth_range(light);
+    fn linear_from_hardware(&self, light: Casting, [near, far]: [f64; 2], ndc_z: &[f32]) -> Vec<f32> {
         let is_perspective =
             matches!(self.lights.local(light.0).kind, LightKind::Spot { .. } | LightKind::Point { .. });
         let linear =
@@ -115,14 +122,12 @@ impl Renderer {
         ndc_z.iter().map(|&z| if z < 1.0 { linear(z.into()) as f32 } else { far as f32 }).collect()
     }
 
-    /// Nearest and farthest depth of the light's views, in local units.
-    fn depth_range(&self, light: Casting) -> (f64, f64) {
+    /// Nearest and farthest depth of each of the light's views, in local units.
+    fn depth_ranges(&self, light: Casting) -> Vec<[f64; 2]> {
         let settings = self.cast.shadows.plan(light.1).map(|plan| plan.settings).unwrap_or_default();
         let seen = frame_views(self.lights.local(light.0), Some(&self.eye_local()), &settings);
         // A light that has maps has views.
-        seen.ok()
-            .and_then(|seen| seen.views.first().map(|view| (view.near_depth, view.far_depth)))
-            .unwrap_or((0.0, 1.0))
+        seen.map_or(Vec::new(), |seen| seen.views.iter().map(|view| [view.near_depth, view.far_depth]).collect())
     }
 
     fn visibility_picture(&self, light: Casting) -> Result<RgbaImage, ReadError> {
@@ -177,5 +182,15 @@ impl Renderer {
             Ok((*light, read_pages(gpu, counters.iter().zip(silhouettes))?))
         };
         copies.iter().map(read).collect()
+    }
+}
+
+/// What tells the maps of a light's views apart.
+fn suffix(kind: &LightKind, view: u32) -> String {
+    const FACES: [&str; 6] = ["positive-x", "negative-x", "positive-y", "negative-y", "positive-z", "negative-z"];
+    match kind {
+        LightKind::Point { .. } => format!("-{}", FACES[view as usize]),
+        LightKind::Cascaded { .. } => format!("-cascade-{}", view + 1),
+        LightKind::Spot { .. } | LightKind::Directional { .. } => String::new(),
     }
 }

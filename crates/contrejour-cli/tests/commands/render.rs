@@ -36,6 +36,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("render::a_camera_of_the_file_sees_it", a_camera_of_the_file_sees_it),
         gpu_trial("render::the_object_has_its_keys", the_object_has_its_keys),
         gpu_trial("render::views_are_pictures", views_are_pictures),
+        gpu_trial("render::all_views_of_a_light_are_written", all_views_are_written),
         gpu_trial("render::every_technique_shows_its_maps", every_technique_shows_its_maps),
         gpu_trial("render::a_scene_file_is_drawn", a_scene_file_is_drawn),
     ]
@@ -240,6 +241,40 @@ fn views_are_pictures() -> Outcome {
         expect_size(&folder, &format!("maps/{name}.png"), size)?;
     }
     if report["views"].as_array().is_some_and(|views| views.len() == 5) { Ok(()) } else { Err(report.to_string()) }
+}
+
+/// A file for each side of the cube around a point light, and for each cascade; each is told, and shows something else.
+fn all_views_are_written() -> Outcome {
+    let scene = |light: &str| {
+        format!(
+            "size = [48, 32]\n[camera]\neye = [3, 2, 5]\ntarget = [0, 0, 0]\n[shadow]\nmap_size = 32\n\
+             [light]\n{light}\n[[mesh]]\nshape = {{ kind = \"box\" }}\n\
+             [[mesh]]\nshape = {{ kind = \"box\", size = [7, 5, 6] }}\ntranslate = [1, 0.5, 0.7]\n"
+        )
+    };
+    let lamp = scene("kind = \"point\"\nposition = [1, 2, 1.5]\nradius = 0.1");
+    let sun = scene("kind = \"directional\"\ntowards_light = [1, 2, 1]\ncascades = 3");
+    let faces = ["positive-x", "negative-x", "positive-y", "negative-y", "positive-z", "negative-z"];
+    let cascades = ["cascade-1", "cascade-2", "cascade-3"];
+    for (name, text, suffixes) in [("lamp", lamp, &faces[..]), ("sun", sun, &cascades[..])] {
+        let folder = Folder::with(&[("scene.toml", &text)]);
+        let told = folder.run("render scene.toml --views maps -o picture.png").stdout()?;
+        for map in ["shadow_map", "smoothie_depth", "smoothie_alpha"] {
+            let mut different = BTreeSet::new();
+            for suffix in suffixes {
+                let file = format!("maps/{map}-{suffix}.png");
+                expect_size(&folder, &file, [32, 32])?;
+                if !told.contains(&file) {
+                    return Err(format!("{name}: {file} is not told: {told}"));
+                }
+                different.insert(std::fs::read(folder.path(&file)).unwrap_or_default());
+            }
+            if map == "shadow_map" && different.len() != suffixes.len() {
+                return Err(format!("{name}: of {} maps only {} differ", suffixes.len(), different.len()));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn a_scene_file_is_drawn() -> Outcome {

@@ -135,7 +135,9 @@ fn read_inner_cone(section: &Section<'_>, kind: &LightKind) -> Result<Option<f64
     if inner <= *cone_angle {
         return Ok(Some(inner));
     }
-    Err(value.refuse(Problem::InnerCone { inner: inner.to_degrees(), cone: cone_angle.to_degrees() }))
+    // As they were written: 60 degrees become radians and 59.99999999999999 degrees.
+    let [inner, cone] = [inner, *cone_angle].map(|angle| (1e9 * angle.to_degrees()).round() / 1e9);
+    Err(value.refuse(Problem::InnerCone { inner, cone }))
 }
 
 fn read_spot(section: &Section<'_>, bounds: &Bounds) -> Result<LightKind, SceneError> {

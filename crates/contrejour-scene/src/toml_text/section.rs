@@ -32,9 +32,27 @@ impl Document<'_> {
     /// The error that the TOML parser found.
     pub fn refuse_syntax(&self, error: &toml::de::Error) -> SceneError {
         let end = self.text.len()..self.text.len();
-        self.refuse(error.span().unwrap_or(end), Problem::Syntax(error.message().replace('\n', ", ")))
+        let span = error.span().unwrap_or(end);
+        let mut message = error.message().replace('\n', ", ");
+        if message.contains("duplicate key")
+            && let Some(list) = self.list_headed_at(span.start)
+        {
+            message += &format!("; where there are several, each begins with `[[{list}]]`, and none with `[{list}]`");
+        }
+        self.refuse(span, Problem::Syntax(message))
+    }
+
+    /// The list whose header stands in the line of a place.
+    fn list_headed_at(&self, at: usize) -> Option<&'static str> {
+        let begin = self.text[..at].rfind('\n').map_or(0, |end| end + 1);
+        let line = self.text[begin..].lines().next()?.trim_start();
+        let name = line.strip_prefix('[')?.trim_start_matches('[').split(']').next()?.trim();
+        LISTS.into_iter().find(|list| *list == name)
     }
 }
+
+/// What a scene may have several of.
+const LISTS: [&str; 2] = ["light", "mesh"];
 
 /// A table of which all keys are known.
 #[derive(Clone)]

@@ -116,6 +116,14 @@ fn the_documented_example_is_a_scene() {
 fn a_mistake_in_the_syntax_has_its_line() {
     assert_refused("eye = [0, 2, 5]", "eye = [0, 2, 5", 5, 1, "not valid TOML");
     assert_refused("kind = \"spot\"\n", "kind = \"spot\"\nkind = \"spot\"\n", 9, 1, "duplicate key");
+    let hint = "each begins with `[[light]]`";
+    for (other, is_told) in [("[[light]]", true), ("[light]", true), ("[camera]", false)] {
+        let text = format!("[light]\nkind = \"spot\"\n[camera]\n{other}\n");
+        let error = read(&text).expect_err("a key is there twice").to_string();
+        assert!(error.contains("duplicate key") && error.contains(hint) == is_told, "{error}");
+    }
+    let error = read("[[light]]\n[light]\n").expect_err("a key is there twice").to_string();
+    assert!(error.contains(hint), "{error}");
 }
 
 #[test]
@@ -317,6 +325,8 @@ fn mistakes_in_one_of_many_lights_have_their_line() {
     refused(&format!("{SPOT}{LAMP}range = 0"), 14, "`range` is 0");
     refused(&format!("{SPOT}{LAMP}[light.shadow]\nmap_size = 0"), 15, "a shadow map of 0 texels");
     refused(&format!("{SPOT}{LAMP}casts = 0"), 14, "give true or false");
+    let inner = "cone_angle_degrees = 60\ninner_cone_angle_degrees = 70";
+    refused(&format!("{SPOT}{inner}"), 12, "`inner_cone_angle_degrees` is 70, and the cone's angle is 60;");
     let inner = "cone_angle_degrees = 40\ninner_cone_angle_degrees = 50";
     refused(&format!("{SPOT}{inner}"), 12, "`inner_cone_angle_degrees` is 50, and the cone's angle is 40");
     assert_refused("size", "exposure_ev100 = 65\nsize", 1, 18, "an exposure value from -64 to 64");
