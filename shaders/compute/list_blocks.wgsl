@@ -1,4 +1,4 @@
-// Lists the blocks of faces and of edges whose casters cast for the view.
+// Lists the blocks of faces and of edges whose casters cast for the view, and leaves out those that are nobody's.
 // One invocation = one block; the blocks of a workgroup are all of faces or all of edges.
 // Masked faces go to the back of the list, where no stage looks.
 // Reads caster_lights, face_blocks, edge_blocks; writes face_items, edge_items, counters.face_items, counters.masked_items,
@@ -27,14 +27,14 @@ fn list_blocks(
     var casts = false;
     if is_of_faces && index < view.face_block_count {
         item = face_blocks[index];
-        casts = caster_lights[item.caster].casts != 0u;
+        casts = item.caster != NO_CASTER && caster_lights[item.caster].casts != 0u;
         if casts && item.kind == BLOCK_MASKED {
             face_items[view.face_block_count - 1u - atomicAdd(&counters.masked_items, 1u)] = item;
             casts = false;
         }
     } else if !is_of_faces && index < view.edge_block_count {
         item = edge_blocks[index];
-        casts = caster_lights[item.caster].casts != 0u;
+        casts = item.caster != NO_CASTER && caster_lights[item.caster].casts != 0u;
     }
 
     // List it. The lists have room for every block.

@@ -3,6 +3,7 @@
 const INCIDENCE_NONE = 0xffffffffu;
 const INCIDENCE_LIST = 0xfffffffeu;
 const UNLIT_FACE = 0x7ffffffdu;
+const NO_CASTER = 0xffffffffu;
 const BLOCK_SIZE = 64u;
 const FACES_PER_WORD = 32u;
 const LIT_WORDS_PER_BLOCK = 2u;

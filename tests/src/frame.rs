@@ -3,8 +3,8 @@
 use bytemuck::{bytes_of, bytes_of_mut, cast_slice, cast_slice_mut};
 use contrejour_layout::{
     BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, Caster, CasterLight, CasterPlace, Corner, Counters, DispatchArgs,
-    DrawArgs, Edge, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord,
-    SilhouetteEdge, VIEW_CULLS, WorkItem,
+    DrawArgs, Edge, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView, NO_CASTER, OUTLINE_WORDS_PER_BLOCK, Quad,
+    RecheckWord, SilhouetteEdge, VIEW_CULLS, WorkItem,
 };
 use contrejour_mesh::{FacePlanes, TopologyAwareMesh};
 use contrejour_plan::{Light, NearOne, ShadowSettings, View, ViewCounts, caster_place, views};
@@ -77,8 +77,14 @@ impl Frame {
             frame.edge_blocks.extend(blocks(index, caster.edge_count));
             frame.casters.push(caster);
         }
-        shuffle(&mut frame.face_blocks);
-        shuffle(&mut frame.edge_blocks);
+        for blocks in [&mut frame.face_blocks, &mut frame.edge_blocks] {
+            blocks.extend((0..blocks.len() as u32 / 4).map(|block| WorkItem {
+                caster: NO_CASTER,
+                block,
+                kind: BLOCK_BY_PLANES,
+            }));
+            shuffle(blocks);
+        }
         frame.caster_lights = vec![CasterLight::default(); frame.casters.len()];
         frame.face_items = vec![WorkItem::default(); frame.face_blocks.len()];
         frame.edge_items = vec![WorkItem::default(); frame.edge_blocks.len()];

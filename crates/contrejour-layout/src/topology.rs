@@ -141,7 +141,7 @@ pub const MASK_CLAMP: u32 = 2;
 shared_struct! {
     /// What one workgroup does: one block of [`BLOCK_SIZE`](crate::BLOCK_SIZE) faces or edges of one caster.
     WorkItem {
-        /// Index of the caster.
+        /// Index of the caster, or [`NO_CASTER`] in a list of blocks.
         caster: u32,
         /// Which block of its faces or edges.
         block: u32,
@@ -159,3 +159,6 @@ pub const BLOCK_BY_POSITIONS: u32 = 1;
 
 /// Its faces have a mask: they are drawn into the shadow map and no stage tests them.
 pub const BLOCK_MASKED: u32 = 2;
+
+/// The caster of a block that is nobody's: a caster left it, and none has come to its place. No stage lists it.
+pub const NO_CASTER: u32 = u32::MAX;

@@ -1,6 +1,6 @@
 //! Lists the blocks of faces and of edges whose casters cast for the view.
 
-use contrejour_layout::{BLOCK_MASKED, CasterLight, Counters, LightView, WorkItem};
+use contrejour_layout::{BLOCK_MASKED, CasterLight, Counters, LightView, NO_CASTER, WorkItem};
 
 /// The stage `list_blocks`: blocks of all casters to the work items of those that cast.
 pub struct ListBlocks<'a> {
@@ -8,9 +8,9 @@ pub struct ListBlocks<'a> {
     pub view: &'a LightView,
     /// The light as each caster sees it.
     pub caster_lights: &'a [CasterLight],
-    /// Blocks of faces of all casters.
+    /// Blocks of faces of all casters, and some that are nobody's.
     pub face_blocks: &'a [WorkItem],
-    /// Blocks of edges of all casters.
+    /// Blocks of edges of all casters, and some that are nobody's.
     pub edge_blocks: &'a [WorkItem],
     /// Those whose caster casts: `counters.face_items` records from the front, and `counters.masked_items` from the back.
     pub face_items: &'a mut [WorkItem],
@@ -27,7 +27,8 @@ impl ListBlocks<'_> {
     ///
     /// When a block names a caster that does not exist, or a list has no room.
     pub fn run(self) {
-        let casts = |block: &&WorkItem| self.caster_lights[block.caster as usize].casts != 0;
+        let casts =
+            |block: &&WorkItem| block.caster != NO_CASTER && self.caster_lights[block.caster as usize].casts != 0;
         let list = |blocks: &[WorkItem], items: &mut [WorkItem], count: &mut u32| {
             for block in blocks.iter().filter(casts) {
                 items[*count as usize] = *block;

@@ -18,6 +18,7 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("INCIDENCE_NONE", layout::INCIDENCE_NONE),
     ("INCIDENCE_LIST", layout::INCIDENCE_LIST),
     ("UNLIT_FACE", layout::UNLIT_FACE),
+    ("NO_CASTER", layout::NO_CASTER),
     ("INCIDENCE_ALONG", layout::INCIDENCE_ALONG),
     ("OUTLINE_NONE", layout::OUTLINE_NONE),
     ("OUTLINE_BLOCKER_LEFT", layout::OUTLINE_BLOCKER_LEFT),

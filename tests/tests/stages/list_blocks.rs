@@ -17,7 +17,8 @@ pub fn trials() -> Vec<Trial> {
     ]
 }
 
-const FAULTS: [Fault; 4] = [
+/// Devices may clamp an index that is too large: so does the fault.
+const FAULTS: [Fault; 6] = [
     Fault::Replaced {
         stage: "list_blocks",
         piece: "(view.face_block_count + GROUP_SIZE - 1u) / GROUP_SIZE",
@@ -35,8 +36,18 @@ const FAULTS: [Fault; 4] = [
     },
     Fault::Replaced {
         stage: "list_blocks",
-        piece: "item = edge_blocks[index];\n        casts = caster_lights[item.caster].casts != 0u;",
-        fault: "item = edge_blocks[index];\n        casts = true;",
+        piece: "item = edge_blocks[index];\n        casts = item.caster != NO_CASTER && caster_lights[item.caster].casts != 0u;",
+        fault: "item = edge_blocks[index];\n        casts = item.caster != NO_CASTER;",
+    },
+    Fault::Replaced {
+        stage: "list_blocks",
+        piece: "item = face_blocks[index];\n        casts = item.caster != NO_CASTER && caster_lights[item.caster].casts != 0u;",
+        fault: "item = face_blocks[index];\n        casts = caster_lights[min(item.caster, arrayLength(&caster_lights) - 1u)].casts != 0u;",
+    },
+    Fault::Replaced {
+        stage: "list_blocks",
+        piece: "item = edge_blocks[index];\n        casts = item.caster != NO_CASTER && caster_lights[item.caster].casts != 0u;",
+        fault: "item = edge_blocks[index];\n        casts = caster_lights[min(item.caster, arrayLength(&caster_lights) - 1u)].casts != 0u;",
     },
 ];
 
