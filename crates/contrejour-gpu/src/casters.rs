@@ -1,14 +1,15 @@
 //! The casters of a scene: where they stand, and their records.
 
-use contrejour_layout::{
-    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_MASKED, BLOCK_SIZE, CASTER_NEVER, Caster, CasterPlace,
-    LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK, WorkItem,
-};
-use contrejour_plan::{CasterFacts, ObjectBox, PagePlan, caster_place};
+use std::ops::Range;
+
+use contrejour_layout::{BLOCK_SIZE, CASTER_NEVER, CasterPlace};
+use contrejour_plan::{BufferKind, CasterFacts, ObjectBox, PoolHoles, caster_place};
 use glam::DMat4;
 
 use crate::error::CasterError;
+use crate::live_positions::{LivePositions, live_positions};
 use crate::pool::{MeshHandle, MeshPool, PooledMesh};
+use crate::ranges::Ranges;
 use crate::slots::{Key, Slots};
 
 /// A mesh that casts. What receives shadows belongs here too: soft edges harden towards what is in the map, and over what
@@ -54,58 +55,39 @@ impl CasterHandle {
     }
 }
 
-/// A caster of the scene.
+/// A caster of the scene. Its places among blocks and positions are its own for as long as it is there.
 #[derive(Debug)]
-struct PlacedCaster {
-    mesh: MeshHandle,
+pub(crate) struct PlacedCaster {
+    pub mesh: MeshHandle,
     /// Where positions are the caller's.
-    live: Option<LivePositions>,
+    pub live: Option<LivePositions>,
     place: CasterPlace,
     /// Box and matrix; `None` where nobody knows them.
     bounds: Option<ObjectBox>,
     has_faces: bool,
+    pub blocks: BlockPlaces,
+    /// Whether it is in no table yet.
+    pub is_new: bool,
 }
 
-/// Positions that are copied from a buffer of the caller's.
-#[derive(Clone, Debug)]
-struct LivePositions {
-    buffer: wgpu::Buffer,
-    offset: u64,
-    vertex_count: u32,
-    stride_words: u32,
-}
-
-/// A copy of a caller's positions into the pool.
-#[derive(Clone, Debug)]
-pub(crate) struct LiveCopy {
-    pub source: wgpu::Buffer,
-    pub source_offset: u64,
-    pub target_offset: u64,
-    pub size: u64,
-}
-
-/// Records and blocks of a page, as they are uploaded.
+/// Where the blocks of a caster lie in the lists of a scene of one page. Its lit bits and outline sides lie as they do, on
+/// any number of pages.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct CasterTable {
-    /// One for each slot of the scene; zeros where no caster has work on the page.
-    pub casters: Vec<Caster>,
-    pub face_blocks: Vec<WorkItem>,
-    pub edge_blocks: Vec<WorkItem>,
-}
-
-/// Where the words of a caster begin in the buffers that serve all pages.
-#[derive(Clone, Copy, Debug)]
-struct CasterWords {
-    lit: u32,
-    outline: u32,
-    /// Where positions are the caller's.
-    live: u32,
+pub(crate) struct BlockPlaces {
+    pub faces: Range<u64>,
+    pub edges: Range<u64>,
 }
 
 /// All casters of a scene.
 #[derive(Debug, Default)]
 pub(crate) struct Casters {
-    slots: Slots<PlacedCaster>,
+    pub(super) slots: Slots<PlacedCaster>,
+    face_blocks: Ranges,
+    edge_blocks: Ranges,
+    /// Blocks that casters left since the tables were written.
+    pub(super) left: Vec<BlockPlaces>,
+    /// Whether casters came or went since then.
+    pub(super) has_changed: bool,
     /// Slots whose places are to be uploaded, in any order; some maybe twice.
     moved: Vec<usize>,
     /// Boxes that something was in or is in since the last upload; `None` is everywhere.
@@ -116,14 +98,21 @@ impl Casters {
     /// # Errors
     ///
     /// The mesh is not one of these, or the buffer does not hold its positions.
-    pub fn add(&mut self, input: &CasterInput, meshes: &MeshPool) -> Result<CasterHandle, CasterError> {
+    pub fn add(&mut self, input: &CasterInput, meshes: &mut MeshPool) -> Result<CasterHandle, CasterError> {
         let mesh = meshes.get(input.mesh).ok_or(CasterError::UnknownMesh { mesh: input.mesh })?;
-        let live = live_positions(input, mesh)?;
-        let has_faces = !mesh.topology.faces.is_empty();
-        let mut caster =
-            PlacedCaster { mesh: input.mesh, live, place: CasterPlace::default(), bounds: None, has_faces };
+        let mut caster = PlacedCaster {
+            mesh: input.mesh,
+            live: live_positions(input, mesh)?,
+            place: CasterPlace::default(),
+            bounds: None,
+            has_faces: !mesh.topology.faces.is_empty(),
+            blocks: BlockPlaces::default(),
+            is_new: true,
+        };
         caster.stand(&input.world_from_object, mesh);
+        caster.take_places(meshes, [&mut self.face_blocks, &mut self.edge_blocks]);
         self.touched.push(caster.bounds);
+        self.has_changed = true;
         let key = self.slots.insert(caster);
         self.moved.push(key.slot);
         Ok(CasterHandle(key))
@@ -152,19 +141,67 @@ impl Casters {
     /// # Errors
     ///
     /// The caster is not one of these.
-    pub fn remove(&mut self, handle: CasterHandle) -> Result<(), CasterError> {
+    pub fn remove(&mut self, handle: CasterHandle, meshes: &mut MeshPool) -> Result<(), CasterError> {
         let caster = self.slots.remove(handle.0).ok_or(CasterError::UnknownCaster { caster: handle })?;
+        if let Some(live) = &caster.live {
+            meshes.give_back_position_words(live.first_word, live.words());
+        }
+        let BlockPlaces { faces, edges } = &caster.blocks;
+        self.face_blocks.give_back(faces.start, faces.end - faces.start);
+        self.edge_blocks.give_back(edges.start, edges.end - edges.start);
+        self.left.push(caster.blocks);
+        self.has_changed = true;
         self.touched.push(caster.bounds);
         self.moved.push(handle.0.slot);
         Ok(())
     }
 
-    /// What a plan needs to know: who casts for a view is decided on the device, so not where they stand.
-    pub fn facts(&self) -> Vec<CasterFacts> {
+    /// How many stand on a mesh.
+    pub fn count_on(&self, mesh: MeshHandle) -> usize {
+        self.slots.iter().filter(|(_, caster)| caster.mesh == mesh).count()
+    }
+
+    /// Places all casters side by side, behind meshes that were just packed. For when nothing is in the tables.
+    pub fn pack(&mut self, meshes: &mut MeshPool) {
+        (self.face_blocks, self.edge_blocks) = Default::default();
+        self.left.clear();
+        for (_, caster) in self.slots.iter_mut() {
+            caster.take_places(meshes, [&mut self.face_blocks, &mut self.edge_blocks]);
+        }
+    }
+
+    /// Whether casters came or went since the tables were written.
+    pub fn has_changed(&self) -> bool {
+        self.has_changed
+    }
+
+    /// What is free between blocks.
+    pub fn holes(&self) -> PoolHoles {
+        let [face_blocks, edge_blocks] = [&self.face_blocks, &self.edge_blocks].map(Ranges::free);
+        PoolHoles { face_blocks, edge_blocks, ..PoolHoles::default() }
+    }
+
+    /// How much of a list of blocks is used.
+    pub fn used(&self, kind: BufferKind) -> Option<u64> {
+        match kind {
+            BufferKind::FaceBlocks => Some(self.face_blocks.used()),
+            BufferKind::EdgeBlocks => Some(self.edge_blocks.used()),
+            _ => None,
+        }
+    }
+
+    /// Where the last blocks end, of faces and of edges.
+    pub fn block_ends(&self) -> [u64; 2] {
+        [self.face_blocks.end(), self.edge_blocks.end()]
+    }
+
+    /// What a plan needs to know: who casts for a view is decided on the device, so not where they stand. `meshes` are the
+    /// meshes' indices by their slots.
+    pub fn facts(&self, meshes: &[usize]) -> Vec<CasterFacts> {
         let facts = |(slot, caster): (usize, &PlacedCaster)| CasterFacts {
             slot,
             name: format!("caster {slot}"),
-            mesh: caster.mesh.0,
+            mesh: meshes[caster.mesh.0.slot],
             bounds: None,
             own_position_words: caster.live.as_ref().map_or(0, LivePositions::words),
         };
@@ -203,90 +240,22 @@ impl Casters {
         }
         self.moved.clear();
     }
-
-    /// Copies of all positions that are the caller's: they follow the meshes' own in the pool, by ascending slot. What lies
-    /// side by side in a buffer is one copy, so those of a deformer are few.
-    pub fn live_copies(&self, meshes: &MeshPool) -> Vec<LiveCopy> {
-        let mut next_word = meshes.position_words();
-        let mut copies: Vec<LiveCopy> = Vec::new();
-        for live in self.slots.iter().filter_map(|(_, caster)| caster.live.as_ref()) {
-            let (target_offset, size) = (4 * next_word, 4 * live.words());
-            next_word += live.words();
-            match copies.last_mut() {
-                Some(last) if last.source == live.buffer && last.source_offset + last.size == live.offset => {
-                    last.size += size;
-                }
-                _ if size == 0 => {}
-                _ => {
-                    let source = live.buffer.clone();
-                    copies.push(LiveCopy { source, source_offset: live.offset, target_offset, size });
-                }
-            }
-        }
-        copies
-    }
-
-    /// The tables of all pages. Their casters are indices into [`facts`](Self::facts).
-    pub fn tables(&self, meshes: &MeshPool, pages: &[PagePlan]) -> Vec<CasterTable> {
-        let dense: Vec<_> = self.slots.iter().collect();
-        let words = words(&dense, meshes);
-        pages.iter().map(|page| table(&dense, meshes, page, &words)).collect()
-    }
-}
-
-fn words(casters: &[(usize, &PlacedCaster)], meshes: &MeshPool) -> Vec<CasterWords> {
-    let mut next = CasterWords { lit: 0, outline: 0, live: meshes.position_words() as u32 };
-    let words = |(_, caster): &(usize, &PlacedCaster)| {
-        let words = next;
-        next.live += caster.live.as_ref().map_or(0, LivePositions::words) as u32;
-        if let Some(mesh) = meshes.get(caster.mesh) {
-            next.lit += (mesh.topology.faces.len() as u32).div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
-            next.outline += mesh.topology.candidate_edge_count.div_ceil(BLOCK_SIZE) * OUTLINE_WORDS_PER_BLOCK;
-        }
-        words
-    };
-    casters.iter().map(words).collect()
-}
-
-fn table(casters: &[(usize, &PlacedCaster)], meshes: &MeshPool, page: &PagePlan, words: &[CasterWords]) -> CasterTable {
-    let places = meshes.places(page);
-    let slot_count = casters.last().map_or(0, |(slot, _)| slot + 1);
-    let mut table = CasterTable { casters: vec![Caster::default(); slot_count], ..CasterTable::default() };
-    for here in &page.casters {
-        let ((slot, caster), words) = (casters[here.caster], &words[here.caster]);
-        let piece = &page.pieces[here.piece];
-        let mut record = meshes.record(piece, &places[here.piece]);
-        record.first_lit_word = words.lit;
-        record.first_outline_word = words.outline;
-        if let Some(live) = &caster.live {
-            record.first_position_word = words.live;
-            record.position_stride_words = live.stride_words;
-        }
-        table.casters[slot] = record;
-        let blocks = |first: u32, blocks: u32| {
-            let first_block = first / BLOCK_SIZE;
-            let caster = slot as u32;
-            (first_block..first_block + blocks).map(move |block| WorkItem { caster, block, kind: 0 })
-        };
-        let face_blocks = blocks(piece.first_face, piece.face_blocks()).map(|item| {
-            let kind = if meshes.is_masked(caster.mesh) {
-                BLOCK_MASKED
-            } else if caster.live.is_some() || !meshes.has_planes(caster.mesh, item.block) {
-                BLOCK_BY_POSITIONS
-            } else {
-                BLOCK_BY_PLANES
-            };
-            WorkItem { kind, ..item }
-        });
-        table.face_blocks.extend(face_blocks);
-        if page.counts.edge_blocks > 0 {
-            table.edge_blocks.extend(blocks(piece.first_edge, piece.edge_blocks()));
-        }
-    }
-    table
 }
 
 impl PlacedCaster {
+    fn take_places(&mut self, meshes: &mut MeshPool, [face_blocks, edge_blocks]: [&mut Ranges; 2]) {
+        if let Some(live) = &mut self.live {
+            live.first_word = meshes.take_position_words(live.words());
+        }
+        let Some(mesh) = meshes.get(self.mesh) else { return };
+        let take = |ranges: &mut Ranges, blocks: u64| {
+            let first = ranges.take(blocks);
+            first..first + blocks
+        };
+        self.blocks.faces = take(face_blocks, block_count(mesh.facts.faces));
+        self.blocks.edges = take(edge_blocks, block_count(mesh.topology.candidate_edge_count));
+    }
+
     fn stand(&mut self, world_from_object: &DMat4, mesh: &PooledMesh) {
         let (min, max) = (mesh.topology.bounds_min, mesh.topology.bounds_max);
         // Where positions are the caller's, the CPU does not know where they are.
@@ -300,29 +269,7 @@ impl PlacedCaster {
     }
 }
 
-impl LivePositions {
-    /// Words from the first position's start to the last one's end.
-    fn words(&self) -> u64 {
-        match self.vertex_count {
-            0 => 0,
-            count => u64::from(count - 1) * u64::from(self.stride_words) + 3,
-        }
-    }
-}
-
-/// Where a caster brings its own positions: checks the buffer and says how they lie.
-fn live_positions(input: &CasterInput, mesh: &PooledMesh) -> Result<Option<LivePositions>, CasterError> {
-    let Positions::InBuffer { buffer, offset, stride } = &input.positions else { return Ok(None) };
-    let (offset, stride) = (*offset, *stride);
-    let is_aligned =
-        offset.is_multiple_of(4) && stride.is_multiple_of(4) && stride >= 12 && stride <= u64::from(u32::MAX);
-    let vertex_count = mesh.topology.positions.len() as u32;
-    let live = LivePositions { buffer: buffer.clone(), offset, vertex_count, stride_words: (stride / 4) as u32 };
-    let needed = offset.saturating_add(4 * live.words());
-    let available = buffer.size();
-    let can_copy = buffer.usage().contains(wgpu::BufferUsages::COPY_SRC);
-    if is_aligned && can_copy && needed <= available {
-        return Ok(Some(live));
-    }
-    Err(CasterError::Positions { needed, available, offset, stride })
+/// Blocks of this many faces or edges.
+fn block_count(items: u32) -> u64 {
+    items.div_ceil(BLOCK_SIZE).into()
 }

@@ -103,6 +103,26 @@ pub enum AddMeshError {
     },
 }
 
+/// Why [`Shadows::remove_mesh`](crate::Shadows::remove_mesh) refuses.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RemoveMeshError {
+    /// The handle is of a mesh that was removed, or of another object.
+    #[error("there is no {mesh:?} here: use the handle of `add_mesh`, until the mesh is removed")]
+    UnknownMesh {
+        /// The handle.
+        mesh: MeshHandle,
+    },
+    /// Casters stand on the mesh.
+    #[error("casters stand on {mesh:?}, {casters} of them: remove them with `remove_caster` before the mesh")]
+    StillCasts {
+        /// The handle.
+        mesh: MeshHandle,
+        /// How many.
+        casters: usize,
+    },
+}
+
 /// Why a caster is not added, moved or removed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -113,8 +133,8 @@ pub enum CasterError {
         /// The handle.
         caster: CasterHandle,
     },
-    /// It names a mesh that was not added here.
-    #[error("the caster names mesh {mesh:?}, which was not added to this object: use the handle of `add_mesh`")]
+    /// It names a mesh that was removed, or is of another object.
+    #[error("the caster names {mesh:?}, which is not here: use the handle of `add_mesh`, until the mesh is removed")]
     UnknownMesh {
         /// The handle.
         mesh: MeshHandle,

@@ -22,6 +22,7 @@ pub(crate) struct Frame {
     stages: Vec<Arc<StagePipeline>>,
     passes: Vec<Arc<MapPipeline>>,
     views: Vec<ViewGroups>,
+    page_count: usize,
 }
 
 /// The bind groups of a view.
@@ -47,23 +48,38 @@ pub(crate) struct Made {
     pub textures: bool,
 }
 
+fn is_same<T>(old: &[Arc<T>], new: &[Arc<T>]) -> bool {
+    old.len() == new.len() && old.iter().zip(new).all(|(old, new)| Arc::ptr_eq(old, new))
+}
+
 impl Frame {
-    /// Makes what the plan lists, drops what it does not list.
+    /// Makes what the plan lists, drops what it does not list. Bind groups stay where all that they bind is what it was;
+    /// `has_new_buffers` says whether that is so for the shared buffers.
     pub fn follow(
         &mut self,
         device: &wgpu::Device,
         plan: &FramePlan,
         view_count: usize,
         (shared, pipelines): (&Buffers, &mut Pipelines),
+        has_new_buffers: bool,
     ) -> Made {
         let of_light = plan.buffers.iter().filter(|buffer| buffer.kind.is_of_light());
         let made = Made {
             buffers: !self.buffers.follow(device, of_light).is_empty(),
             textures: self.textures.follow(device, plan),
         };
-        self.stages = pipelines.stages(device, plan);
-        self.passes = pipelines.passes(device, plan);
+        let (stages, passes) = (pipelines.stages(device, plan), pipelines.passes(device, plan));
         let page_count = plan.pages.len();
+        let binds_the_same = !has_new_buffers
+            && !made.buffers
+            && !made.textures
+            && is_same(&self.stages, &stages)
+            && is_same(&self.passes, &passes)
+            && (self.views.len(), self.page_count) == (view_count, page_count);
+        if binds_the_same {
+            return made;
+        }
+        (self.stages, self.passes, self.page_count) = (stages, passes, page_count);
         let groups = |view: usize| {
             let bindings = Bindings { shared, of_light: &self.buffers, view };
             let of_stage =

@@ -6,6 +6,7 @@
 //! function for forward renderers ([`Shadows::visibility_wgsl`]), a full-screen visibility texture for deferred ones
 //! ([`Shadows::encode_visibility`]), or the [maps](Shadows::maps) and [buffers](Shadows::buffer) themselves.
 
+mod caster_tables;
 mod casters;
 mod compute;
 mod deformer;
@@ -15,12 +16,15 @@ mod frame;
 mod heartbeat;
 mod inputs;
 mod lights;
+mod live_positions;
 mod masks;
 pub mod passes;
 mod pieces;
 mod pipelines;
 mod pool;
+mod pool_content;
 mod prepare;
+mod ranges;
 mod raster;
 mod readback;
 mod receive;
@@ -39,14 +43,15 @@ pub use casters::{CasterHandle, CasterInput, Positions};
 pub use contrejour_plan::{ViewChoice, VisibilityKind};
 pub use deformer::{AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError};
 pub use error::{
-    AddMeshError, CasterError, CountersError, DeviceError, NewShadowsError, PrepareError, ShadowLightError,
+    AddMeshError, CasterError, CountersError, DeviceError, NewShadowsError, PrepareError, RemoveMeshError,
+    ShadowLightError,
 };
 pub use heartbeat::poll;
 pub use inputs::{FrameStats, Maps, ShadowOptions, device_facts};
 pub use lights::LightHandle;
 pub use masks::mask_facts;
-pub use pieces::mesh_pieces;
-pub use pool::{MeshHandle, masked_mesh_facts, mesh_facts};
+pub use pieces::{masked_mesh_facts, mesh_facts, mesh_pieces};
+pub use pool::MeshHandle;
 pub use shadows::{FilledView, Shadows};
 pub use timer::{PassTimer, Untimed};
 pub use visibility::EyeInput;

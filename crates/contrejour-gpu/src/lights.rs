@@ -2,8 +2,8 @@
 
 use contrejour_layout::{Counters, LightView, ReceiverView, VIEW_CULLS};
 use contrejour_plan::{
-    BufferKind, Capacity, CascadeError, DeviceFacts, Eye, FramePlan, FrameViews, LeftOut, Light, LightKind, ObjectBox,
-    Omitted, Outputs, PlanError, PlanInput, Reason, SceneFacts, Stage, View, ViewChoice, frame_views,
+    BufferKind, BufferPlan, Capacity, CascadeError, DeviceFacts, Eye, FramePlan, FrameViews, LeftOut, Light, LightKind,
+    ObjectBox, Omitted, Outputs, PlanError, PlanInput, Reason, SceneFacts, Stage, View, ViewChoice, frame_views,
 };
 
 use crate::error::ShadowLightError;
@@ -129,16 +129,26 @@ impl LightState {
         scene: &SceneFacts,
         device: &DeviceFacts,
         capacity: Capacity,
-        shared: &[BufferKind],
+        (shared, made): (&[BufferKind], &[BufferPlan]),
     ) -> Result<FramePlan, PlanError> {
         let ShadowOptions { settings, outputs, .. } = &self.options;
         let (views, outputs) = (&self.seen.views[..], *outputs);
-        FramePlan::new(&PlanInput { scene, views, settings, device, outputs, capacity, shared })
+        FramePlan::new(&PlanInput { scene, views, settings, device, outputs, capacity, shared, made })
     }
 
-    /// Makes what a plan lists for this light.
-    pub fn follow(&mut self, device: &wgpu::Device, plan: FramePlan, (shared, pipelines): (&Buffers, &mut Pipelines)) {
-        let made = self.frame.follow(device, &plan, self.seen.views.len(), (shared, pipelines));
+    /// Makes what a plan lists for this light. `has_new_buffers` says whether some shared ones are not those that they were.
+    pub fn follow(
+        &mut self,
+        device: &wgpu::Device,
+        plan: FramePlan,
+        (shared, pipelines): (&Buffers, &mut Pipelines),
+        has_new_buffers: bool,
+    ) {
+        let views = self.seen.views.len();
+        let made = self.frame.follow(device, &plan, views, (shared, pipelines), has_new_buffers);
+        if made.buffers {
+            self.records = Records::default();
+        }
         self.follow_visibility(device, &plan, made);
         self.is_due |= made.textures || self.plan.as_ref().is_none_or(|old| old.stages != plan.stages);
         self.has_new_records = true;
@@ -187,17 +197,21 @@ impl LightState {
         let Some(plan) = &mut self.plan else { return 0 };
         let mut bytes = 0;
         if std::mem::take(&mut self.has_new_records) {
-            self.records = Records::new(&self.seen, plan);
+            let before = std::mem::replace(&mut self.records, Records::new(&self.seen, plan));
             let mut write = |(kind, page), data: &[u8]| {
                 if let Some(buffer) = self.frame.buffers.find(kind, page) {
                     queue.write_buffer(buffer, 0, data);
                     bytes += data.len() as u64;
                 }
             };
-            for (views, page) in self.records.light_views.chunks(self.seen.views.len()).zip(0..) {
-                write((BufferKind::LightView, page), bytemuck::cast_slice(views));
+            if before.light_views != self.records.light_views {
+                for (views, page) in self.records.light_views.chunks(self.seen.views.len()).zip(0..) {
+                    write((BufferKind::LightView, page), bytemuck::cast_slice(views));
+                }
             }
-            write((BufferKind::ReceiverView, 0), bytemuck::cast_slice(&self.records.receiver_views));
+            if before.receiver_views != self.records.receiver_views {
+                write((BufferKind::ReceiverView, 0), bytemuck::cast_slice(&self.records.receiver_views));
+            }
         }
         // Told frame by frame.
         let kept = LeftOut { what: Omitted::Redrawing, reason: Reason::NothingChanged };

@@ -1,10 +1,29 @@
-//! Cuts a mesh that is too large for one page into pieces.
+//! Counts a mesh, and cuts one that is too large for one page into pieces.
 
 use contrejour_layout::{BLOCK_SIZE, INCIDENCE_LIST, VertexEdge};
-use contrejour_mesh::{EdgeClass, TopologyAwareMesh};
+use contrejour_mesh::{EdgeClass, MaskedMesh, TopologyAwareMesh};
 use contrejour_plan::{DeviceFacts, MeshFacts, MeshPiece};
 
-use crate::pool::mesh_facts;
+/// What the frame plan needs to know of a mesh with a mask.
+pub fn masked_mesh_facts(mesh: &MaskedMesh) -> MeshFacts {
+    MeshFacts { is_masked: true, ..mesh_facts(mesh.mesh()) }
+}
+
+/// What the frame plan needs to know of a mesh.
+pub fn mesh_facts(mesh: &TopologyAwareMesh) -> MeshFacts {
+    let candidates = &mesh.edge_classes[..mesh.candidate_edge_count as usize];
+    let is_other = |class: &&EdgeClass| matches!(class, EdgeClass::Border | EdgeClass::NonManifold);
+    let other_edges = candidates.iter().filter(is_other).count() as u32;
+    MeshFacts {
+        vertices: mesh.positions.len() as u32,
+        faces: mesh.faces.len() as u32,
+        two_face_edges: mesh.candidate_edge_count - other_edges,
+        other_edges,
+        incidence_words: mesh.incidences.len() as u32,
+        vertex_edges: mesh.vertex_edges.len() as u32,
+        is_masked: false,
+    }
+}
 
 /// The pieces of the mesh of this index, as large as the device allows. None where the mesh fits as it is, and where it
 /// can't be cut because a block alone is too large: a vertex has more edges than a buffer holds.

@@ -1,11 +1,18 @@
 //! Preparing a frame: what is needed is made, what changed is uploaded.
 
-use contrejour_plan::{BufferKind, FramePlan, PlanError, SceneFacts, shared_plans};
+use contrejour_layout::BLOCK_SIZE;
+use contrejour_plan::{BufferKind, BufferPlan, FramePlan, PlanError, PoolHoles, SceneFacts, shared_plans};
 
 use crate::device_watch::OpenScopes;
 use crate::error::{DeviceError, PrepareError};
 use crate::lights::LightHandle;
 use crate::shadows::Shadows;
+
+/// Buffers with room for fewer records or words stay as they are.
+const LEAST_SHRUNK_ITEMS: u64 = 1 << 18;
+
+/// As many blocks, beside which lists of all their faces and edges are kept.
+const LEAST_SHRUNK_BLOCKS: u64 = LEAST_SHRUNK_ITEMS / BLOCK_SIZE as u64;
 
 impl Shadows {
     /// Prepares a frame: follows the frame plans of all lights, uploads the records of lights and casters that changed.
@@ -28,7 +35,7 @@ impl Shadows {
         self.collect_counters();
         self.stats.set_up_bytes = 0;
         if self.is_stale {
-            let plans = self.plans()?;
+            let plans = self.plans_of_packed()?;
             self.follow(device, queue, plans)?;
             self.is_stale = false;
         }
@@ -36,18 +43,57 @@ impl Shadows {
         Ok(())
     }
 
+    /// The plans of all lights. What lies in the pools stays where it is, but where nothing is on the device yet, where that
+    /// is much too large for what is left, and where holes would cost a page: then everything moves together.
+    fn plans_of_packed(&mut self) -> Result<Vec<FramePlan>, PlanError> {
+        if self.buffers.shared().is_empty() || self.is_mostly_unused() {
+            self.pack();
+        }
+        let plans = self.plans();
+        let has_one_page = matches!(&plans, Ok(plans) if plans.iter().all(|plan| plan.pages.len() == 1));
+        if has_one_page || self.holes() == PoolHoles::default() {
+            return plans;
+        }
+        self.pack();
+        self.plans()
+    }
+
+    /// Moves everything together, without holes. The buffers are dropped: all of it is uploaded again.
+    fn pack(&mut self) {
+        self.buffers.drop_buffers();
+        self.meshes.pack();
+        self.casters.pack(&mut self.meshes);
+    }
+
+    fn holes(&self) -> PoolHoles {
+        let PoolHoles { face_blocks, edge_blocks, .. } = self.casters.holes();
+        PoolHoles { face_blocks, edge_blocks, ..self.meshes.holes() }
+    }
+
+    /// Whether a pool or a list of blocks fills less than a quarter of its buffer, and that is large.
+    fn is_mostly_unused(&self) -> bool {
+        let is_mostly_unused = |buffer: &BufferPlan| {
+            let (used, least) = match buffer.kind {
+                BufferKind::FaceBlocks | BufferKind::EdgeBlocks => {
+                    (self.casters.used(buffer.kind), LEAST_SHRUNK_BLOCKS)
+                }
+                kind => (self.meshes.used(kind), LEAST_SHRUNK_ITEMS),
+            };
+            used.is_some_and(|used| buffer.items >= least && buffer.items / 4 > used)
+        };
+        self.buffers.made().iter().any(is_mostly_unused)
+    }
+
     /// The plans of all lights, in their order.
     fn plans(&self) -> Result<Vec<FramePlan>, PlanError> {
-        let scene = SceneFacts {
-            meshes: self.meshes.facts().to_vec(),
-            pieces: self.meshes.pieces().to_vec(),
-            casters: self.casters.facts(),
-            receivers: Vec::new(),
-            masks: self.meshes.masks().facts(),
-        };
+        let (meshes, pieces) = self.meshes.facts();
+        let casters = self.casters.facts(&self.meshes.indices());
+        let (receivers, masks, holes) = (Vec::new(), self.meshes.masks().facts(), self.holes());
+        let scene = SceneFacts { meshes, pieces, casters, receivers, masks, holes };
+        let made = self.buffers.made();
         let plans = |shared: &[BufferKind]| -> Result<Vec<_>, PlanError> {
             let plan = |(_, light): (usize, &crate::lights::LightState)| {
-                light.plan(&scene, &self.device_facts, self.capacity, shared)
+                light.plan(&scene, &self.device_facts, self.capacity, (shared, made))
             };
             self.lights.iter().map(plan).collect()
         };
@@ -58,10 +104,10 @@ impl Shadows {
     fn follow(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, plans: Vec<FramePlan>) -> Result<(), DeviceError> {
         let bytes = plans.iter().map(planned_bytes).sum();
         let scopes = OpenScopes::push(device);
-        self.stats.set_up_bytes =
-            self.buffers.follow(device, queue, plans.first(), (&mut self.meshes, &mut self.casters));
+        let set_up = self.buffers.follow(device, queue, plans.first(), (&mut self.meshes, &mut self.casters));
+        self.stats.set_up_bytes = set_up.bytes;
         for ((_, light), plan) in self.lights.iter_mut().zip(plans) {
-            light.follow(device, plan, self.buffers.shared_and_pipelines());
+            light.follow(device, plan, self.buffers.shared_and_pipelines(), set_up.has_new_buffers);
         }
         let counted_pages = self.lights.iter().map(|(_, light)| light.counted_pages()).sum();
         self.readback.make_room(device, counted_pages);

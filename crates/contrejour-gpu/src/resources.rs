@@ -45,28 +45,44 @@ pub(crate) struct Buffers {
     by_place: BTreeMap<(BufferKind, usize), wgpu::Buffer>,
 }
 
+/// A buffer that was made.
+#[derive(Debug)]
+pub(crate) struct MadeBuffer {
+    pub place: (BufferKind, usize),
+    /// The one that it replaces, of another size.
+    pub old: Option<wgpu::Buffer>,
+}
+
 impl Buffers {
     /// Makes what is listed and does not exist in that size, drops what is not listed; returns what was made.
     pub fn follow<'a>(
         &mut self,
         device: &wgpu::Device,
         listed: impl Iterator<Item = &'a BufferPlan>,
-    ) -> Vec<(BufferKind, usize)> {
-        let listed: BTreeMap<_, _> = listed.map(|listed| ((listed.kind, listed.page), listed.bytes)).collect();
-        self.by_place.retain(|place, buffer| listed.get(place) == Some(&buffer.size()));
+    ) -> Vec<MadeBuffer> {
+        let mut old = std::mem::take(&mut self.by_place);
         let mut made = Vec::new();
-        for (place, bytes) in listed {
-            self.by_place.entry(place).or_insert_with(|| {
-                made.push(place);
-                device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some(place.0.name()),
-                    size: bytes,
-                    usage: usage(place.0),
-                    mapped_at_creation: false,
-                })
+        for BufferPlan { kind, page, bytes, .. } in listed {
+            let place = (*kind, *page);
+            let old = old.remove(&place);
+            if let Some(kept) = old.as_ref().filter(|old| old.size() == *bytes) {
+                self.by_place.insert(place, kept.clone());
+                continue;
+            }
+            let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(kind.name()),
+                size: *bytes,
+                usage: usage(*kind),
+                mapped_at_creation: false,
             });
+            self.by_place.insert(place, buffer);
+            made.push(MadeBuffer { place, old });
         }
         made
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.by_place.is_empty()
     }
 
     /// The buffer of a page, or the one that serves all pages.

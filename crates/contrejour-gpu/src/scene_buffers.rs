@@ -1,27 +1,61 @@
 //! The buffers and pipelines that all lights share.
 
-use contrejour_layout::CasterPlace;
-use contrejour_plan::{BufferKind, FramePlan, Omitted, PagePlan};
+use std::collections::BTreeSet;
 
-use crate::casters::{Casters, LiveCopy};
+use contrejour_layout::CasterPlace;
+use contrejour_plan::{BufferKind, BufferPlan, FramePlan, Omitted, PagePlan};
+
+use crate::caster_tables::CasterTable;
+use crate::casters::Casters;
+use crate::live_positions::LiveCopy;
 use crate::pipelines::Pipelines;
-use crate::pool::MeshPool;
-use crate::resources::Buffers;
+use crate::pool::{MeshPool, PlacedPiece};
+use crate::pool_content::MESH_POOLS;
+use crate::resources::{Buffers, MadeBuffer};
 
 /// Pools of meshes, records of casters, and the lists that are filled for one view after the other.
 #[derive(Debug, Default)]
 pub(crate) struct SceneBuffers {
     shared: Buffers,
+    /// Those buffers as the plan lists them.
+    made: Vec<BufferPlan>,
     pipelines: Pipelines,
     /// What lies in the pools, page by page.
     pages: Vec<PagePlan>,
+    /// What lies in the lists of casters, page by page.
+    tables: Vec<CasterTable>,
     has_planes: bool,
-    has_tables: bool,
+    has_edges: bool,
 }
 
-/// The pools that meshes fill page by page.
-const MESH_POOLS: [BufferKind; 4] =
-    [BufferKind::Faces, BufferKind::Edges, BufferKind::Incidences, BufferKind::VertexEdges];
+/// What [`SceneBuffers::follow`] did.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SetUp {
+    /// Bytes that it uploaded.
+    pub bytes: u64,
+    /// Whether some buffers are not those that they were.
+    pub has_new_buffers: bool,
+}
+
+/// What of the pools and lists is to be written.
+#[derive(Debug)]
+struct Stale {
+    /// Buffers that hold nothing yet.
+    empty: BTreeSet<(BufferKind, usize)>,
+    /// All pieces of all pages; else those of new meshes.
+    pieces: bool,
+    /// The planes of all pieces.
+    planes: bool,
+    /// All records and blocks of casters; else those of casters that came and went.
+    tables: bool,
+}
+
+/// Writes to buffers, where they are, and counts the bytes.
+struct Upload<'a> {
+    shared: &'a Buffers,
+    queue: &'a wgpu::Queue,
+    bytes: u64,
+}
 
 impl SceneBuffers {
     pub fn shared(&self) -> &Buffers {
@@ -32,82 +66,63 @@ impl SceneBuffers {
         (&self.shared, &mut self.pipelines)
     }
 
-    /// Lets the tables of casters be written again.
-    pub fn forget_tables(&mut self) {
-        self.has_tables = false;
+    /// The shared buffers as the last plan lists them.
+    pub fn made(&self) -> &[BufferPlan] {
+        &self.made
     }
 
     pub fn drop_unused(&mut self) {
         self.pipelines.drop_unused();
     }
 
-    /// Makes and fills what a plan lists, as all do that share it; returns the bytes that it uploaded.
+    /// Drops the buffers and keeps the pipelines.
+    pub fn drop_buffers(&mut self) {
+        *self = Self { pipelines: std::mem::take(&mut self.pipelines), ..Self::default() };
+    }
+
+    /// Makes and fills what a plan lists, as all do that share it. What stays is not uploaded again: in a scene of one page
+    /// it stays where it is, and goes with a buffer that grows by a copy on the device.
     pub fn follow(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         plan: Option<&FramePlan>,
         (meshes, casters): (&mut MeshPool, &mut Casters),
-    ) -> u64 {
+    ) -> SetUp {
         let Some(plan) = plan else {
             *self = Self::default();
-            return 0;
+            return SetUp { bytes: 0, has_new_buffers: true };
         };
-        let made = self.shared.follow(device, plan.buffers.iter().filter(|buffer| !buffer.kind.is_of_light()));
-        let mut bytes = 0;
-        let mut write = |(kind, page): (BufferKind, usize), offset: u64, data: &[u8]| {
-            if let Some(buffer) = self.shared.find(kind, page).filter(|_| !data.is_empty()) {
-                queue.write_buffer(buffer, offset, data);
-                bytes += data.len() as u64;
-            }
-        };
+        let listed = || plan.buffers.iter().filter(|buffer| !buffer.kind.is_of_light());
+        let made = self.shared.follow(device, listed());
+        let has_new_buffers = !made.is_empty();
+        let have_one_page = self.pages.len() == 1 && plan.pages.len() == 1;
+        let empty = keep_contents(device, queue, &self.shared, made, have_one_page);
 
-        // Meshes.
-        if made.contains(&(BufferKind::Positions, 0)) {
-            meshes.fill_positions(|offset, data| write((BufferKind::Positions, 0), offset, data));
-        }
-        if made.contains(&(BufferKind::Masks, 0)) || made.contains(&(BufferKind::MaskWords, 0)) {
-            write((BufferKind::Masks, 0), 0, bytemuck::cast_slice(&meshes.masks().records()));
-            meshes.masks().fill_words(|offset, data| write((BufferKind::MaskWords, 0), offset, data));
-        }
         // Where nobody reads planes, their buffer has no room for them.
         let has_planes = plan.reason(&Omitted::FacePlanes).is_none() && plan.buffer(BufferKind::Planes).is_some();
-        for (page, index) in plan.pages.iter().zip(0..) {
-            let holds_others = self.pages.get(index).is_none_or(|old| old.pieces != page.pieces);
-            // The buffer of one face is as large as one without planes.
-            let has_new_planes = !self.has_planes || holds_others || made.contains(&(BufferKind::Planes, index));
-            if has_new_planes && has_planes {
-                meshes.fill_planes(page, |offset, data| write((BufferKind::Planes, index), offset, data));
-            }
-            for kind in MESH_POOLS {
-                if holds_others || made.contains(&(kind, index)) {
-                    meshes.fill(kind, page, |offset, data| write((kind, index), offset, data));
-                }
-            }
-        }
-
-        // Casters.
-        let of_tables = [BufferKind::Casters, BufferKind::FaceBlocks, BufferKind::EdgeBlocks];
-        let has_new_tables = made.iter().any(|(kind, _)| of_tables.contains(kind));
+        let has_edges = plan.buffer(BufferKind::Edges).is_some();
+        let pieces = !have_one_page && (meshes.has_changed() || !hold_the_same_pieces(&self.pages, &plan.pages));
+        let casters_differ = || casters.has_changed() || !hold_the_same_casters(&self.pages, &plan.pages);
         // Blocks say whether their faces have planes.
-        if !self.has_tables
-            || has_new_tables
-            || self.has_planes != has_planes
-            || !holds_the_same(&self.pages, &plan.pages)
-        {
-            for (table, page) in casters.tables(meshes, &plan.pages).iter().zip(0..) {
-                write((BufferKind::Casters, page), 0, bytemuck::cast_slice(&table.casters));
-                write((BufferKind::FaceBlocks, page), 0, bytemuck::cast_slice(&table.face_blocks));
-                write((BufferKind::EdgeBlocks, page), 0, bytemuck::cast_slice(&table.edge_blocks));
-            }
-        }
-        if made.contains(&(BufferKind::CasterPlaces, 0)) {
+        let has_other_kinds = (has_planes, has_edges) != (self.has_planes, self.has_edges);
+        let tables = has_other_kinds || !have_one_page && (pieces || casters_differ());
+        let stale = Stale { empty, pieces, planes: pieces || has_planes && !self.has_planes, tables };
+        (self.has_planes, self.has_edges) = (has_planes, has_edges);
+
+        let mut upload = Upload { shared: &self.shared, queue, bytes: 0 };
+        let placed = meshes.placed(&plan.pages);
+        upload.meshes(meshes, &placed, &stale, has_planes);
+        casters.write_tables(&mut self.tables, stale.tables, meshes, (&plan.pages, &placed));
+        upload.tables(&mut self.tables, &stale, has_edges);
+        let bytes = upload.bytes;
+        if stale.empty.contains(&(BufferKind::CasterPlaces, 0)) {
             casters.move_all();
         }
-        self.has_tables = true;
-        self.has_planes = has_planes;
+        meshes.note_filled();
+        self.made = listed().copied().collect();
         self.pages.clone_from(&plan.pages);
-        bytes
+        SetUp { bytes, has_new_buffers }
     }
 
     /// Uploads the places of casters that moved; returns the bytes.
@@ -135,9 +150,93 @@ impl SceneBuffers {
     }
 }
 
-fn holds_the_same(old: &[PagePlan], new: &[PagePlan]) -> bool {
-    let content = |pages: &[PagePlan]| -> Vec<_> {
-        pages.iter().map(|page| (page.pieces.clone(), page.casters.clone(), page.counts.edge_blocks)).collect()
-    };
-    content(old) == content(new)
+impl Upload<'_> {
+    fn write(&mut self, (kind, page): (BufferKind, usize), offset: u64, data: &[u8]) {
+        if let Some(buffer) = self.shared.find(kind, page).filter(|_| !data.is_empty()) {
+            self.queue.write_buffer(buffer, offset, data);
+            self.bytes += data.len() as u64;
+        }
+    }
+
+    fn meshes(&mut self, meshes: &mut MeshPool, placed: &[Vec<PlacedPiece>], stale: &Stale, has_planes: bool) {
+        let positions = (BufferKind::Positions, 0);
+        meshes.write_positions(stale.empty.contains(&positions), |offset, data| self.write(positions, offset, data));
+        for place in [BufferKind::Masks, BufferKind::MaskWords].map(|kind| (kind, 0)) {
+            let all = stale.empty.contains(&place);
+            meshes.masks().write(place.0, all, |offset, data| self.write(place, offset, data));
+        }
+        for (placed, page) in placed.iter().zip(0..) {
+            for piece in placed {
+                let is_new = stale.pieces || meshes.is_new(piece.slot);
+                let planes = (BufferKind::Planes, page);
+                if has_planes && (is_new || stale.planes || stale.empty.contains(&planes)) {
+                    meshes.write_planes(piece, |offset, data| self.write(planes, offset, data));
+                }
+                for place in MESH_POOLS.map(|kind| (kind, page)) {
+                    if is_new || stale.empty.contains(&place) {
+                        meshes.write_piece(place.0, piece, |offset, data| self.write(place, offset, data));
+                    }
+                }
+            }
+        }
+    }
+
+    fn tables(&mut self, tables: &mut [CasterTable], stale: &Stale, has_edges: bool) {
+        for (CasterTable { casters, face_blocks, edge_blocks }, page) in tables.iter_mut().zip(0..) {
+            let place = (BufferKind::Casters, page);
+            casters.take_changed(stale.empty.contains(&place), |offset, data| self.write(place, offset, data));
+            let place = (BufferKind::FaceBlocks, page);
+            face_blocks.take_changed(stale.empty.contains(&place), |offset, data| self.write(place, offset, data));
+            let place = (BufferKind::EdgeBlocks, page);
+            edge_blocks.take_changed(stale.empty.contains(&place), |offset, data| {
+                // Where no stage looks at edges there is no room for their blocks.
+                if has_edges {
+                    self.write(place, offset, data);
+                }
+            });
+        }
+    }
+}
+
+/// Copies what buffers held that were replaced, as far as it stays where it is; returns the places of those that hold
+/// nothing. Meanwhile both are there.
+fn keep_contents(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    shared: &Buffers,
+    made: Vec<MadeBuffer>,
+    have_one_page: bool,
+) -> BTreeSet<(BufferKind, usize)> {
+    let mut empty = BTreeSet::new();
+    let mut encoder = None;
+    for MadeBuffer { place: (kind, page), old } in made {
+        let stays = holds_what_stays(kind) && (have_one_page || !kind.is_paged());
+        let Some(old) = old.filter(|_| stays) else {
+            empty.insert((kind, page));
+            continue;
+        };
+        let new = shared.get(kind, page);
+        let encoder = encoder.get_or_insert_with(|| device.create_command_encoder(&Default::default()));
+        encoder.copy_buffer_to_buffer(&old, 0, new, 0, old.size().min(new.size()));
+    }
+    if let Some(encoder) = encoder {
+        queue.submit([encoder.finish()]);
+    }
+    empty
+}
+
+/// Whether a buffer holds what was written when things came; the others are filled in each frame.
+fn holds_what_stays(kind: BufferKind) -> bool {
+    use BufferKind::{CasterPlaces, Casters, EdgeBlocks, FaceBlocks, MaskWords, Masks, Planes, Positions};
+    MESH_POOLS.contains(&kind)
+        || matches!(kind, Positions | Planes | Masks | MaskWords)
+        || matches!(kind, Casters | CasterPlaces | FaceBlocks | EdgeBlocks)
+}
+
+fn hold_the_same_pieces(old: &[PagePlan], new: &[PagePlan]) -> bool {
+    old.iter().map(|page| &page.pieces).eq(new.iter().map(|page| &page.pieces))
+}
+
+fn hold_the_same_casters(old: &[PagePlan], new: &[PagePlan]) -> bool {
+    old.iter().map(|page| &page.casters).eq(new.iter().map(|page| &page.casters))
 }

@@ -10,7 +10,7 @@ use glam::DMat4;
 
 use crate::casters::{CasterHandle, CasterInput, Casters};
 use crate::device_watch::{DeviceWatch, OpenScopes};
-use crate::error::{AddMeshError, CasterError, CountersError, NewShadowsError, ShadowLightError};
+use crate::error::{AddMeshError, CasterError, CountersError, NewShadowsError, RemoveMeshError, ShadowLightError};
 use crate::heartbeat::poll;
 use crate::inputs::{FrameStats, ShadowOptions, device_facts};
 use crate::lights::{LightHandle, LightState};
@@ -107,14 +107,30 @@ impl Shadows {
         self.meshes.add_masked(mesh, &self.device_facts)
     }
 
+    /// Removes a mesh. Its handle names nothing any more, and meshes that come later lie where it lay.
+    ///
+    /// # Errors
+    ///
+    /// Casters stand on it, or there is no such mesh; then nothing has changed.
+    pub fn remove_mesh(&mut self, mesh: MeshHandle) -> Result<(), RemoveMeshError> {
+        let casters = self.casters.count_on(mesh);
+        if casters > 0 {
+            return Err(RemoveMeshError::StillCasts { mesh, casters });
+        }
+        if !self.meshes.remove(mesh) {
+            return Err(RemoveMeshError::UnknownMesh { mesh });
+        }
+        self.is_stale = true;
+        Ok(())
+    }
+
     /// Adds a caster: one place of one mesh.
     ///
     /// # Errors
     ///
     /// The mesh was not added here, or a buffer of positions does not hold what the mesh needs.
     pub fn add_caster(&mut self, caster: &CasterInput) -> Result<CasterHandle, CasterError> {
-        let handle = self.casters.add(caster, &self.meshes)?;
-        self.buffers.forget_tables();
+        let handle = self.casters.add(caster, &mut self.meshes)?;
         self.is_stale = true;
         Ok(handle)
     }
@@ -134,8 +150,7 @@ impl Shadows {
     ///
     /// There is no such caster.
     pub fn remove_caster(&mut self, caster: CasterHandle) -> Result<(), CasterError> {
-        self.casters.remove(caster)?;
-        self.buffers.forget_tables();
+        self.casters.remove(caster, &mut self.meshes)?;
         self.is_stale = true;
         Ok(())
     }
@@ -213,7 +228,7 @@ impl Shadows {
         if self.is_stale || !is_due {
             return;
         }
-        self.buffers.encode_copies(encoder, &self.casters.live_copies(&self.meshes));
+        self.buffers.encode_copies(encoder, &self.casters.live_copies());
         let shared = self.buffers.shared();
         let due = self.lights.iter().filter(|(_, light)| light.is_due());
         let counted_pages = due.map(|(_, light)| light.counted_pages()).sum();

@@ -68,6 +68,10 @@ impl<T> Slots<T> {
     pub fn at(&self, slot: usize) -> Option<&T> {
         self.slots.get(slot)?.item.as_ref()
     }
+
+    pub fn at_mut(&mut self, slot: usize) -> Option<&mut T> {
+        self.slots.get_mut(slot)?.item.as_mut()
+    }
 }
 
 #[cfg(test)]

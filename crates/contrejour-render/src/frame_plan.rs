@@ -3,7 +3,7 @@
 use contrejour_gpu::mesh_pieces;
 use contrejour_plan::{
     BufferKind, Capacity, CascadeError, CasterFacts, DeviceFacts, FramePlan, ObjectBox, Outputs, PlanError, PlanInput,
-    SceneFacts, frame_views, shared_plans,
+    PoolHoles, SceneFacts, frame_views, shared_plans,
 };
 use contrejour_scene::{Scene, SceneLight};
 
@@ -49,7 +49,8 @@ pub fn frame_plans(scene: &Scene, device: &DeviceFacts) -> Result<Vec<LightPlan>
         let views = frame_views(&local.light(&light.light), Some(&eye), &light.shadow)?.views;
         let (outputs, capacity) = (Outputs::Maps, Capacity::default());
         let settings = &light.shadow;
-        Ok(FramePlan::new(&PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared })?)
+        let input = PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared, made: &[] };
+        Ok(FramePlan::new(&input)?)
     };
     let plans = shared_plans(|shared| casting().map(|(_, light)| plan_of(light, shared)).collect())?;
     Ok(casting().zip(plans).map(|((light, _), plan)| LightPlan { light, plan }).collect())
@@ -81,5 +82,6 @@ fn scene_facts(scene: &Scene, local: &LocalSpace, device: &DeviceFacts) -> Resul
             .collect(),
         receivers: scene.meshes.iter().filter(|placed| !placed.casts).map(|placed| placed.name.clone()).collect(),
         masks: mask_facts_of(&casters.meshes),
+        holes: PoolHoles::default(),
     })
 }

@@ -1,7 +1,7 @@
 //! Decides what a frame runs and who casts in it, and writes down what that leaves out.
 
 use super::plan::has_size;
-use super::{CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
+use super::{BufferKind, CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
 use crate::{DepthPrecision, ObjectBox, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
 
 /// The passes that one technique or another can do without, smoothies apart, and why; masked ones as those that they follow.
@@ -188,11 +188,15 @@ pub(super) fn note_masked(scene: &SceneFacts, stages: &[Stage], left_out: &mut L
     }
 }
 
-/// Notes where no face has a plane.
-pub(super) fn note_planes(scene: &SceneFacts, stages: &[Stage], left_out: &mut LeftOutList) {
-    if stages.contains(&Stage::ClassifyFaces) && !scene.casters.iter().any(CasterFacts::has_planes) {
+/// Whether no face has a plane; notes it where a stage would read them. Planes that were made stay: a caster without
+/// positions of its own may come again.
+pub(super) fn lacks_planes(input: &PlanInput<'_>, stages: &[Stage], left_out: &mut LeftOutList) -> bool {
+    let were_made = input.made.iter().any(|made| made.kind == BufferKind::Planes && made.items > 0);
+    let lacks_planes = !were_made && !input.scene.casters.iter().any(CasterFacts::has_planes);
+    if lacks_planes && stages.contains(&Stage::ClassifyFaces) {
         left_out.add(Omitted::FacePlanes, Reason::PositionsAreTheCallers);
     }
+    lacks_planes
 }
 
 fn nothing_casts(scene: &SceneFacts) -> bool {

@@ -72,6 +72,25 @@ pub struct CasterFacts {
     pub own_position_words: u64,
 }
 
+/// Room that is free between what lies in the pools: what stays keeps its place when something goes. Default: none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PoolHoles {
+    /// Words among the positions.
+    pub position_words: u64,
+    /// Faces; not where the scene fills several pages, which are packed.
+    pub faces: u64,
+    /// Edges; as for faces.
+    pub edges: u64,
+    /// Incidence words; as for faces.
+    pub incidence_words: u64,
+    /// Words of vertex edges; as for faces.
+    pub vertex_edge_words: u64,
+    /// Blocks of faces. Those of lit bits lie as they do.
+    pub face_blocks: u64,
+    /// Blocks of edges. Those of outline sides lie as they do.
+    pub edge_blocks: u64,
+}
+
 /// What there is to shadow.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneFacts {
@@ -85,6 +104,8 @@ pub struct SceneFacts {
     pub receivers: Vec<String>,
     /// What cuts the faces of some of the meshes.
     pub masks: MaskFacts,
+    /// Room that is free between them.
+    pub holes: PoolHoles,
 }
 
 /// What the device can do.

@@ -54,13 +54,14 @@ pub(super) struct Page {
 
 impl Page {
     /// A page without pieces.
-    fn new(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity) -> Self {
-        Self { pieces: Vec::new(), casters: Vec::new(), sizes: PageSizes::new(scene, kinds, floor) }
+    fn new(empty: PageSizes) -> Self {
+        Self { pieces: Vec::new(), casters: Vec::new(), sizes: empty }
     }
 
     /// All meshes, also those that nothing casts yet.
-    fn whole(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity) -> Self {
-        let mut page = Self::new(scene, kinds, floor);
+    fn whole(scene: &SceneFacts, empty: PageSizes) -> Self {
+        let mut page = Self::new(empty);
+        page.sizes.add_holes(&scene.holes);
         for (mesh, facts) in scene.meshes.iter().enumerate() {
             let piece = MeshPiece::whole(mesh, facts);
             page.sizes.add_piece(&piece, facts);
@@ -97,8 +98,9 @@ impl Page {
 }
 
 /// Spreads a scene over at least one page whose buffers of the given kinds the device allows, as far as it can be cut.
-pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFacts, floor: Capacity) -> Vec<Page> {
-    let whole = Page::whole(scene, kinds, floor);
+/// `empty` are the sizes of a page without pieces.
+pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFacts, empty: PageSizes) -> Vec<Page> {
+    let whole = Page::whole(scene, empty);
     if whole.sizes.fit(kinds, device) {
         return vec![whole];
     }
@@ -107,7 +109,7 @@ pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFac
         casters_of[facts.mesh].push(caster);
     }
     let mut full = Vec::new();
-    let mut page = Page::new(scene, kinds, floor);
+    let mut page = Page::new(empty);
     for (mesh, facts) in scene.meshes.iter().enumerate() {
         let mut pieces: Vec<_> = scene.pieces.iter().filter(|piece| piece.mesh == mesh).copied().collect();
         if pieces.is_empty() {
@@ -116,7 +118,7 @@ pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFac
         for piece in &pieces {
             for &caster in &casters_of[mesh] {
                 if !page.add(piece, caster, facts, |sizes| sizes.fit(kinds, device)) {
-                    full.push(std::mem::replace(&mut page, Page::new(scene, kinds, floor)));
+                    full.push(std::mem::replace(&mut page, Page::new(empty)));
                     page.add(piece, caster, facts, |_| true);
                 }
             }

@@ -1,11 +1,12 @@
 //! The frame plan and how it is made.
 
-use super::decide::{LeftOutList, casting, note_masked, note_planes, passes, smoothies_wanted, stages};
+use super::decide::{LeftOutList, casting, lacks_planes, note_masked, passes, smoothies_wanted, stages};
 use super::page::{Page, pages};
-use super::size_buffers::SceneSizes;
+use super::room::with_room;
+use super::size_buffers::{PageSizes, SceneSizes};
 use super::{
-    BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, MeshPiece, Omitted, Outputs, PagePlan, Pass, PipelinePlan,
-    PlanError, Reason, SceneFacts, Stage, TextureKind, TexturePlan, VisibilityKind,
+    BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, Omitted, Outputs, PagePlan, Pass, PipelinePlan, PlanError,
+    Reason, SceneFacts, Stage, TextureKind, TexturePlan, VisibilityKind,
 };
 use crate::{CastersInFront, ShadowSettings, View, ViewCounts};
 
@@ -27,6 +28,9 @@ pub struct PlanInput<'a> {
     pub capacity: Capacity,
     /// Buffers that lights beside this one need. All lights share pages and lists, so what one needs shapes them for all.
     pub shared: &'a [BufferKind],
+    /// Buffers that lights share, as an earlier frame's plan lists them; none for a first frame. Where both frames have
+    /// one page, those with room are kept as they are and those without grow to half more than is needed.
+    pub made: &'a [BufferPlan],
 }
 
 /// Everything that a frame of one light does and holds. Nothing else is created.
@@ -88,7 +92,7 @@ impl FramePlan {
             return Err(PlanError::MapTooLarge { map_size: settings.map_size, limit });
         }
 
-        note_planes(scene, &stages, &mut left_out);
+        let lacks_planes = lacks_planes(input, &stages, &mut left_out);
         note_masked(scene, &stages, &mut left_out);
 
         // Decide who casts in this frame.
@@ -100,8 +104,13 @@ impl FramePlan {
         // List what that needs.
         let is_needed = |kind: &BufferKind| is_bound(*kind, &stages, &passes) || input.shared.contains(kind);
         let kinds: Vec<_> = BufferKind::ALL.into_iter().filter(is_needed).collect();
-        let pages = pages(scene, &kinds, device, input.capacity);
-        let buffers = buffers(&kinds, &SceneSizes::new(scene, input.views.len()), &pages, device)?;
+        let pages = pages(scene, &kinds, device, PageSizes::new(scene, &kinds, input.capacity, lacks_planes));
+        let mut buffers = buffers(&kinds, &SceneSizes::new(scene, input.views.len()), &pages, device)?;
+        if pages.len() == 1 && input.made.iter().all(|made| made.page == 0) {
+            for buffer in buffers.iter_mut().filter(|buffer| !buffer.kind.is_of_light()) {
+                *buffer = with_room(*buffer, input.made, device);
+            }
+        }
         let kept = |kind: &TextureKind| visibility.is_some_and(|visibility| visibility.textures().contains(kind));
         let layers = |kind: &TextureKind| if kept(kind) { input.views.len() as u32 } else { 1 };
         let textures = passes.iter().flat_map(|pass| pass.fills());
@@ -111,10 +120,9 @@ impl FramePlan {
         let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, &settings.technique, in_front));
         let pipelines = of_stages.chain(of_passes).collect();
 
-        let has_edges = kinds.contains(&BufferKind::Edges);
         let pages = (pages.into_iter().enumerate())
             .map(|(index, page)| PagePlan {
-                counts: counts(&page, scene.caster_slots(), has_edges, &buffers, index),
+                counts: counts(&page, scene.caster_slots(), &buffers, index),
                 pieces: page.pieces,
                 casters: page.casters,
             })
@@ -214,16 +222,16 @@ fn buffers(
 }
 
 /// Blocks on a page, and the room in its lists.
-fn counts(page: &Page, casters: usize, has_edges: bool, buffers: &[BufferPlan], index: usize) -> ViewCounts {
+fn counts(page: &Page, casters: usize, buffers: &[BufferPlan], index: usize) -> ViewCounts {
     let room = |kind| {
         let listed = buffers.iter().find(|buffer| buffer.kind == kind && buffer.page == index);
         listed.map_or(0, |buffer| buffer.items as u32)
     };
-    let blocks = |blocks: fn(&MeshPiece) -> u32| page.casters.iter().map(|here| blocks(&page.pieces[here.piece])).sum();
+    let [face_blocks, edge_blocks] = page.sizes.blocks();
     ViewCounts {
         casters: casters as u32,
-        face_blocks: blocks(MeshPiece::face_blocks),
-        edge_blocks: if has_edges { blocks(MeshPiece::edge_blocks) } else { 0 },
+        face_blocks,
+        edge_blocks,
         undecided: room(BufferKind::Undecided),
         silhouettes: room(BufferKind::Silhouettes),
         quads: room(BufferKind::Quads),

@@ -4,7 +4,7 @@ use contrejour_layout::{LIT_WORDS_PER_BLOCK, OUTLINE_WORDS_PER_BLOCK};
 
 use super::capacity::expected_outline_edges;
 use super::{
-    BufferKind, BufferPlan, Capacity, CasterFacts, DeviceFacts, MaskFacts, MeshFacts, MeshPiece, PlanError, SceneFacts,
+    BufferKind, BufferPlan, Capacity, DeviceFacts, MaskFacts, MeshFacts, MeshPiece, PlanError, PoolHoles, SceneFacts,
 };
 
 /// Entries of item, refine and extrude arguments: each serves two stages.
@@ -39,6 +39,9 @@ pub(super) struct PageSizes {
     edges: u64,
     face_blocks: u64,
     edge_blocks: u64,
+    /// Blocks of nobody between theirs.
+    free_face_blocks: u64,
+    free_edge_blocks: u64,
     /// No caster has planes.
     lacks_planes: bool,
     /// No stage looks at edges.
@@ -56,9 +59,9 @@ impl SceneSizes {
         Self {
             casters: scene.caster_slots() as u64,
             views: views as u64,
-            position_words: mesh_words + own_words,
-            face_blocks: cast.clone().map(|mesh| u64::from(mesh.face_blocks())).sum(),
-            edge_blocks: cast.map(|mesh| u64::from(mesh.edge_blocks())).sum(),
+            position_words: mesh_words + own_words + scene.holes.position_words,
+            face_blocks: cast.clone().map(|mesh| u64::from(mesh.face_blocks())).sum::<u64>() + scene.holes.face_blocks,
+            edge_blocks: cast.map(|mesh| u64::from(mesh.edge_blocks())).sum::<u64>() + scene.holes.edge_blocks,
             masks: scene.masks,
         }
     }
@@ -90,10 +93,19 @@ impl SceneSizes {
 
 impl PageSizes {
     /// Sizes of a page without pieces.
-    pub fn new(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity) -> Self {
+    pub fn new(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity, lacks_planes: bool) -> Self {
         let lacks_edges = !kinds.contains(&BufferKind::Edges);
-        let lacks_planes = !scene.casters.iter().any(CasterFacts::has_planes);
         Self { casters: scene.caster_slots() as u64, lacks_planes, lacks_edges, floor, ..Self::default() }
+    }
+
+    /// Makes room for what is free between pieces and between blocks.
+    pub fn add_holes(&mut self, holes: &PoolHoles) {
+        self.pool_faces += holes.faces;
+        self.pool_edges += holes.edges;
+        self.incidence_words += holes.incidence_words;
+        self.vertex_edge_words += holes.vertex_edge_words;
+        self.free_face_blocks += holes.face_blocks;
+        self.free_edge_blocks += holes.edge_blocks;
     }
 
     /// Makes room for a piece in the pools.
@@ -114,6 +126,11 @@ impl PageSizes {
         self.outline_edges += expected_outline_edges(mesh.faces, piece.two_face_edges, piece.other_edges);
     }
 
+    /// Blocks that the page lists from: those of faces, and those of edges where a stage looks at them.
+    pub fn blocks(&self) -> [u32; 2] {
+        [BufferKind::FaceBlocks, BufferKind::EdgeBlocks].map(|kind| self.items(kind) as u32)
+    }
+
     /// Records, or words, of a buffer.
     fn items(&self, kind: BufferKind) -> u64 {
         let capacity = Capacity::expecting(self.outline_edges, self.edges, self.floor);
@@ -125,9 +142,11 @@ impl PageSizes {
             BufferKind::Incidences => self.incidence_words,
             BufferKind::VertexEdges => self.vertex_edge_words,
             BufferKind::Casters => self.casters,
-            BufferKind::FaceBlocks | BufferKind::FaceItems => self.face_blocks,
+            // Masked ones lie at the back of as long a list.
+            BufferKind::FaceBlocks | BufferKind::FaceItems => self.face_blocks + self.free_face_blocks,
             BufferKind::EdgeBlocks | BufferKind::EdgeItems if self.lacks_edges => 0,
-            BufferKind::EdgeBlocks | BufferKind::EdgeItems => self.edge_blocks,
+            BufferKind::EdgeBlocks => self.edge_blocks + self.free_edge_blocks,
+            BufferKind::EdgeItems => self.edge_blocks,
             BufferKind::RecheckWords => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
             BufferKind::Undecided => self.faces,
             BufferKind::Silhouettes => self.edges,
@@ -153,6 +172,12 @@ impl PageSizes {
         let mut paged = kinds.iter().filter(|kind| kind.is_paged());
         paged.all(|kind| self.buffer(*kind, 0, device).is_ok())
     }
+}
+
+/// Most records, or words, that a buffer may have.
+pub(super) fn most_items(kind: BufferKind, device: &DeviceFacts) -> u64 {
+    let bytes = device.max_storage_buffer_binding_size.min(device.max_buffer_size);
+    (bytes / kind.item_bytes()).min(u32::MAX.into())
 }
 
 fn allowed(plan: BufferPlan, device: &DeviceFacts) -> Result<BufferPlan, PlanError> {

@@ -3,8 +3,8 @@ use glam::{DMat4, DVec3};
 use super::*;
 use crate::{
     AlphaRemap, CasterFacts, DepthPrecision, EntryPoints, Light, LightKind, MapSampler, MaskFacts, MeshFacts,
-    ObjectBox, PagedCaster, SettingsError, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, TextureFormat,
-    VarianceSettings, views,
+    MeshPiece, ObjectBox, PagedCaster, PoolHoles, SettingsError, SmoothieBlend, SmoothieSettings, SmoothieWidth,
+    Technique, TextureFormat, VarianceSettings, views,
 };
 
 mod masked;
@@ -60,6 +60,7 @@ fn cube_scene() -> SceneFacts {
         casters: vec![caster_at("cube", 0, DVec3::ZERO)],
         receivers: vec!["floor".to_owned()],
         masks: MaskFacts::default(),
+        holes: PoolHoles::default(),
     }
 }
 
@@ -77,6 +78,7 @@ struct Case {
     outputs: Outputs,
     capacity: Capacity,
     shared: Vec<BufferKind>,
+    made: Vec<BufferPlan>,
 }
 
 impl Case {
@@ -89,6 +91,7 @@ impl Case {
             outputs: Outputs::Maps,
             capacity: Capacity::default(),
             shared: Vec::new(),
+            made: Vec::new(),
         }
     }
 
@@ -105,6 +108,7 @@ impl Case {
             outputs: self.outputs,
             capacity: self.capacity,
             shared: &self.shared,
+            made: &self.made,
         })
     }
 
@@ -614,4 +618,86 @@ fn lights_that_share_lists_list_the_same() {
     };
     assert_eq!(shared(&plan), shared(&smoothies));
     assert_eq!((&plan.pages, plan.stages.as_slice()), (&smoothies.pages, Stage::PLACEMENT));
+}
+
+#[test]
+fn holes_have_room_in_pools_and_lists_of_blocks_alone() {
+    let mut case = Case::new(cube_scene());
+    let before = case.good();
+    case.scene.holes = PoolHoles {
+        position_words: 1,
+        faces: 2,
+        edges: 3,
+        incidence_words: 4,
+        vertex_edge_words: 5,
+        face_blocks: 6,
+        edge_blocks: 7,
+    };
+    let after = case.good();
+    let items = |plan: &FramePlan, kind| plan.buffer(kind).map_or(0, |buffer| buffer.items);
+    let larger_by = |kind| items(&after, kind) - items(&before, kind);
+    let larger = BufferKind::ALL.into_iter().map(|kind| (kind, larger_by(kind))).filter(|(_, more)| *more > 0);
+    let expected = [
+        (BufferKind::Positions, 1),
+        (BufferKind::Faces, 2),
+        (BufferKind::Planes, 2),
+        (BufferKind::Edges, 3),
+        (BufferKind::Incidences, 4),
+        (BufferKind::VertexEdges, 5),
+        (BufferKind::FaceBlocks, 6),
+        (BufferKind::EdgeBlocks, 7),
+        (BufferKind::FaceItems, 6),
+        (BufferKind::Lit, 12),
+        (BufferKind::OutlineSides, 28),
+    ];
+    assert_eq!(larger.collect::<Vec<_>>(), expected);
+    let ViewCounts { face_blocks, edge_blocks, .. } = after.pages[0].counts;
+    assert_eq!((face_blocks, edge_blocks), (7, 8), "stages look for blocks in the holes too");
+}
+
+#[test]
+fn buffers_grow_by_half_and_are_kept() {
+    let mut case = Case::new(cube_scene());
+    let shared = |plan: &FramePlan| -> Vec<BufferPlan> {
+        plan.buffers.iter().filter(|buffer| !buffer.kind.is_of_light()).copied().collect()
+    };
+    let first = case.good();
+    case.made = shared(&first);
+    assert_eq!(shared(&case.good()), case.made, "what has room stays");
+    case.scene.casters.extend((0..9).map(|_| caster_at("more", 0, DVec3::ZERO)));
+    let grown = case.good();
+    for (before, after) in first.buffers.iter().zip(&grown.buffers).filter(|(before, _)| !before.kind.is_of_light()) {
+        let exact = Case::new(case.scene.clone()).good();
+        let needed = exact.buffer(after.kind).map_or(0, |buffer| buffer.items);
+        let expected = if needed > before.items { needed + needed / 2 } else { before.items };
+        assert_eq!((after.items, after.bytes), (expected, expected.max(1) * after.kind.item_bytes()), "{after:?}");
+    }
+    assert_eq!(grown.pages[0].counts.silhouettes, 180, "lists say how much room they have");
+    assert_eq!(grown.pages[0].counts.face_blocks, 10, "no stage looks for blocks in the room that is left");
+    case.made = shared(&grown);
+    case.scene.casters.truncate(1);
+    assert_eq!(shared(&case.good()), case.made, "what shrank is kept");
+}
+
+#[test]
+fn planes_that_were_made_stay() {
+    let mut case = Case::new(cube_scene());
+    case.made = case.good().buffers;
+    case.scene.casters[0].own_position_words = 24;
+    let plan = case.good();
+    assert_eq!((plan.reason(&Omitted::FacePlanes), bytes(&plan, BufferKind::Planes)), (None, Some(12 * 16)));
+}
+
+#[test]
+fn pages_are_as_large_as_they_must_be() {
+    let mut case = Case::new(SceneFacts { meshes: vec![TORUS], ..cube_scene() });
+    case.scene.pieces = torus_pieces().to_vec();
+    case.device.max_storage_buffer_binding_size = 20_000_000;
+    let exact = case.good();
+    case.made = Case::new(cube_scene()).good().buffers;
+    assert_eq!(case.good().buffers, exact.buffers, "one page before");
+    case.made = exact.buffers.clone();
+    case.scene.meshes[0] = CUBE;
+    case.scene.pieces.clear();
+    assert_eq!(case.good().buffers, Case { made: Vec::new(), ..case }.good().buffers, "several pages before");
 }
