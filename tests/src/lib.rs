@@ -4,6 +4,7 @@ pub mod ask;
 pub mod avenue;
 pub mod ball;
 pub mod chain;
+pub mod changing_scene;
 pub mod compare;
 pub mod deform_frame;
 pub mod deforming;

@@ -9,7 +9,7 @@ use crate::lights::LightHandle;
 use crate::shadows::Shadows;
 
 /// Buffers with room for fewer records or words stay as they are.
-const LEAST_SHRUNK_ITEMS: u64 = 1 << 18;
+const LEAST_SHRUNK_ITEMS: u64 = 1 << 20;
 
 /// As many blocks, beside which lists of all their faces and edges are kept.
 const LEAST_SHRUNK_BLOCKS: u64 = LEAST_SHRUNK_ITEMS / BLOCK_SIZE as u64;

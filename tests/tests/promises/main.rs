@@ -3,6 +3,7 @@
 mod cascade_borders;
 mod cascades;
 mod closed;
+mod come_and_go;
 mod deformed;
 mod device_trouble;
 mod drawn_lights;
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         own_positions::trials(),
         many_lights::trials(),
         masked::trials(),
+        come_and_go::trials(),
         deformed::trials(),
         device_trouble::trials(),
         pages::trials(),

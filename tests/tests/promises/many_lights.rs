@@ -32,7 +32,7 @@ struct Crowd<'a> {
     casters: Vec<CasterHandle>,
 }
 
-fn text(error: impl ToString) -> String {
+pub(crate) fn text(error: impl ToString) -> String {
     error.to_string()
 }
 
@@ -102,7 +102,7 @@ impl<'a> Crowd<'a> {
 }
 
 /// Somewhere in a room of 8 units, turned, stretched, every other one mirrored.
-fn place(random: &mut Random) -> DMat4 {
+pub(crate) fn place(random: &mut Random) -> DMat4 {
     let mut vector = || DVec3::new(random.signed(), random.signed(), random.signed());
     let (middle, stretch, axis) = (4.0 * vector(), vector(), vector().normalize_or(DVec3::X));
     let sign = if stretch.x > 0.0 { 1.0 } else { -1.0 };
@@ -110,11 +110,11 @@ fn place(random: &mut Random) -> DMat4 {
     DMat4::from_scale_rotation_translation(scale, DQuat::from_axis_angle(axis, 3.0 * stretch.y), middle)
 }
 
-fn lamp(position: DVec3) -> Light {
+pub(crate) fn lamp(position: DVec3) -> Light {
     Light { kind: LightKind::Point { position, radius: 0.1, near: 0.2, far: 12.0 }, color: [1.0; 3] }
 }
 
-fn sun(towards_light: DVec3) -> Light {
+pub(crate) fn sun(towards_light: DVec3) -> Light {
     let kind = LightKind::Directional {
         towards_light,
         center: DVec3::ZERO,
