@@ -65,6 +65,8 @@ pub(crate) struct PlacedCaster {
     /// Box and matrix; `None` where nobody knows them.
     bounds: Option<ObjectBox>,
     has_faces: bool,
+    /// Whether it has no faces, or a mask cuts them.
+    is_named: bool,
     pub blocks: BlockPlaces,
     /// Whether it is in no table yet.
     pub is_new: bool,
@@ -106,6 +108,7 @@ impl Casters {
             place: CasterPlace::default(),
             bounds: None,
             has_faces: !mesh.topology.faces.is_empty(),
+            is_named: mesh.topology.faces.is_empty() || mesh.is_masked(),
             blocks: BlockPlaces::default(),
             is_new: true,
         };
@@ -200,7 +203,8 @@ impl Casters {
     pub fn facts(&self, meshes: &[usize]) -> Vec<CasterFacts> {
         let facts = |(slot, caster): (usize, &PlacedCaster)| CasterFacts {
             slot,
-            name: format!("caster {slot}"),
+            // A plan names those of which it leaves something out.
+            name: if caster.is_named { format!("caster {slot}") } else { String::new() },
             mesh: meshes[caster.mesh.0.slot],
             bounds: None,
             own_position_words: caster.live.as_ref().map_or(0, LivePositions::words),

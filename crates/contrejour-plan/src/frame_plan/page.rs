@@ -39,7 +39,7 @@ impl MeshPiece {
     pub fn fits(&self, mesh: &MeshFacts, device: &DeviceFacts) -> bool {
         let mut sizes = PageSizes::default();
         sizes.add_piece(self, mesh);
-        sizes.add_caster(self, mesh);
+        sizes.add_casters(self, mesh, 1);
         sizes.fit(&BufferKind::ALL, device)
     }
 }
@@ -62,14 +62,16 @@ impl Page {
     fn whole(scene: &SceneFacts, empty: PageSizes) -> Self {
         let mut page = Self::new(empty);
         page.sizes.add_holes(&scene.holes);
-        for (mesh, facts) in scene.meshes.iter().enumerate() {
+        let mut caster_counts = vec![0; scene.meshes.len()];
+        for (caster, facts) in scene.casters.iter().enumerate() {
+            caster_counts[facts.mesh] += 1;
+            page.casters.push(PagedCaster { caster, piece: facts.mesh });
+        }
+        for ((mesh, facts), caster_count) in scene.meshes.iter().enumerate().zip(caster_counts) {
             let piece = MeshPiece::whole(mesh, facts);
             page.sizes.add_piece(&piece, facts);
+            page.sizes.add_casters(&piece, facts, caster_count);
             page.pieces.push(piece);
-        }
-        for (caster, facts) in scene.casters.iter().enumerate() {
-            page.sizes.add_caster(&page.pieces[facts.mesh], &scene.meshes[facts.mesh]);
-            page.casters.push(PagedCaster { caster, piece: facts.mesh });
         }
         page
     }
@@ -82,7 +84,7 @@ impl Page {
         if !is_there {
             sizes.add_piece(piece, mesh);
         }
-        sizes.add_caster(piece, mesh);
+        sizes.add_casters(piece, mesh, 1);
         // Caster records have one base for each mesh.
         let is_cut_here = !is_there && last.is_some_and(|last| last.mesh == piece.mesh);
         if !self.casters.is_empty() && (is_cut_here || !room(&sizes)) {

@@ -117,13 +117,13 @@ impl PageSizes {
         self.vertex_edge_words += u64::from(mesh.vertices) + 1 + 2 * u64::from(piece.vertex_edges);
     }
 
-    /// Makes room for what the stages write about a caster of a piece.
-    pub fn add_caster(&mut self, piece: &MeshPiece, mesh: &MeshFacts) {
-        self.faces += u64::from(piece.faces);
-        self.edges += u64::from(piece.edges());
-        self.face_blocks += u64::from(piece.face_blocks());
-        self.edge_blocks += u64::from(piece.edge_blocks());
-        self.outline_edges += expected_outline_edges(mesh.faces, piece.two_face_edges, piece.other_edges);
+    /// Makes room for what the stages write about so many casters of a piece.
+    pub fn add_casters(&mut self, piece: &MeshPiece, mesh: &MeshFacts, count: u64) {
+        self.faces += count * u64::from(piece.faces);
+        self.edges += count * u64::from(piece.edges());
+        self.face_blocks += count * u64::from(piece.face_blocks());
+        self.edge_blocks += count * u64::from(piece.edge_blocks());
+        self.outline_edges += count * expected_outline_edges(mesh.faces, piece.two_face_edges, piece.other_edges);
     }
 
     /// Blocks that the page lists from: those of faces, and those of edges where a stage looks at them.
