@@ -63,7 +63,8 @@ pub struct FrameStats {
     /// Bytes that the last [`prepare`](crate::Shadows::prepare) uploaded for the frame: records of lights and casters that
     /// changed.
     pub upload_bytes: u64,
-    /// Bytes that it uploaded once because meshes or casters came or went.
+    /// Bytes that it uploaded once because meshes or casters came or went: those that came, and blocks of those that went.
+    /// Copies on the device are not among them.
     pub set_up_bytes: u64,
     /// Frames whose quads or corners did not fit, as far as their counters have arrived.
     pub overflow_frames: u64,

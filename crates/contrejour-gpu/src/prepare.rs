@@ -18,7 +18,8 @@ impl Shadows {
     /// Prepares a frame: follows the frame plans of all lights, uploads the records of lights and casters that changed.
     ///
     /// What a plan newly lists is created here and what none lists any more is dropped; a frame in which only lights and
-    /// casters move creates nothing and uploads their records alone. Lists that an earlier frame found too short grow here.
+    /// casters move creates nothing and uploads their records alone. Lists that an earlier frame found too short grow here,
+    /// and so do pools that have no room for what came: that submits a copy of what they hold, and waits for nothing.
     ///
     /// # Errors
     ///

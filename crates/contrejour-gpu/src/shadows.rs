@@ -25,6 +25,19 @@ use crate::timer::PassTimer;
 ///
 /// Meshes, casters and lights are added, changed and removed by handles at any time; a frame uploads what changed and
 /// makes the maps of those lights that see a change.
+///
+/// What stays is not touched by what comes and goes. On the device each mesh and each caster has places of its own for as
+/// long as it is there; what comes gets a place that something left, or lies behind the others. So the frame after it
+/// uploads the mesh, the caster's record and its blocks, 12 bytes for each 64 faces or edges, whatever else there is; what
+/// goes costs as many bytes of blocks at most. Nothing is waited for.
+///
+/// - A buffer is as large as the first frame needs it. One that gets too small grows to half more than is needed, by a copy on
+///   the device; while that runs both are there. One that has room is kept, also where less would do.
+/// - Where a large pool fills less than a quarter of its buffer (from 2^20 records or words, or from 16 384 blocks), all
+///   buffers are made anew, as large as needed, and all that is left is uploaded again.
+/// - A scene that fills several [pages](FramePlan::pages) is packed anew whenever meshes or casters come or go, but for
+///   positions; one that fills a page only for its holes is packed first.
+/// - Where a light first needs a pool, as smoothies need edges, or where the first caster comes, it is filled with all meshes.
 #[derive(Debug)]
 pub struct Shadows {
     pub(crate) device_facts: DeviceFacts,
@@ -89,7 +102,7 @@ impl Shadows {
     ///
     /// # Errors
     ///
-    /// The positions of all meshes together are more than 32 bits can index.
+    /// The positions of all meshes together are more than 32 bits can index; then it is not added.
     pub fn add_mesh(&mut self, mesh: Arc<TopologyAwareMesh>) -> Result<MeshHandle, AddMeshError> {
         let handle = self.meshes.add(mesh, &self.device_facts);
         self.is_stale = true;

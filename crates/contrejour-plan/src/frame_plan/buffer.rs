@@ -77,7 +77,8 @@ pub struct BufferPlan {
     pub kind: BufferKind,
     /// Index of the page that it belongs to; 0 where it serves all pages.
     pub page: usize,
-    /// Records, or words, that it has room for.
+    /// Records, or words, that it has room for; more than are needed where [it was made](super::PlanInput::made) for more, or
+    /// grew.
     pub items: u64,
     /// Its size in bytes. At least one record, since an empty buffer can't be bound.
     pub bytes: u64,
