@@ -28,6 +28,7 @@ mod ranges;
 mod raster;
 mod readback;
 mod receive;
+mod records;
 mod resources;
 mod scene_buffers;
 pub mod shaders;

@@ -27,6 +27,12 @@ impl Ranges {
         start
     }
 
+    /// Where the last place would end with one more of this length.
+    pub fn end_with(&self, length: u64) -> u64 {
+        let fills_a_hole = self.by_length.range((length, 0)..).next().is_some();
+        if fills_a_hole { self.end } else { self.end.saturating_add(length) }
+    }
+
     /// Gives a place back.
     pub fn give_back(&mut self, start: u64, length: u64) {
         if length == 0 {

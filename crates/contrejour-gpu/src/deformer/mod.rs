@@ -2,9 +2,9 @@
 
 mod error;
 mod pool;
+mod poses;
 mod resources;
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use contrejour_mesh::DeformingMesh;
@@ -17,7 +17,8 @@ use crate::device_watch::{DeviceWatch, OpenScopes};
 use crate::error::DeviceError;
 use crate::shadows::Shadows;
 use crate::timer::PassTimer;
-use pool::{Poses, Tables};
+use pool::Pool;
+use poses::Poses;
 use resources::{DeformPipeline, DeformResources};
 
 /// A mesh that was given to [`Deformer::add`].
@@ -35,25 +36,30 @@ pub struct DeformInput<'a> {
     pub morph_weights: &'a [f64],
 }
 
-/// Moves the vertices of all deforming meshes of a scene in one dispatch a frame, before the shadows of any light.
+/// Moves the vertices of all deforming meshes of a scene in one pass a frame, before the shadows of any light: in one
+/// dispatch for all that was there in the first frame, and in some more for what came later and found no room among it.
 ///
 /// Each frame it is [prepared](Self::prepare) with the poses, which are all that goes to the device, and
 /// [records](Self::encode) its stage into the encoder that the shadows follow in; casters name the
 /// [positions](Self::positions) that it leaves. Vertices that were
 /// [welded as moving alike](DeformingMesh::topology) have equal bits in any pose. A coordinate that overflows stays at the
 /// largest number.
+///
+/// What stays is not touched by what comes and goes: a frame uploads the meshes that came, and positions stay where they are
+/// for as long as their mesh is there. Buffers that get too small grow to half more than is needed, by copies on the device;
+/// one with room is kept until the last of its meshes is gone.
 #[derive(Debug)]
 pub struct Deformer {
-    casters: BTreeMap<DeformHandle, Arc<DeformingMesh>>,
+    pool: Pool,
     next_handle: u64,
     most_bytes: u64,
-    tables: Tables,
     /// None until the first caster is prepared.
     pipeline: Option<DeformPipeline>,
-    /// None where the set of casters has changed since, or there is none.
+    /// None until the first caster is prepared, and where there is none any more.
     resources: Option<DeformResources>,
     watch: DeviceWatch,
     upload_bytes: u64,
+    set_up_bytes: u64,
 }
 
 impl Deformer {
@@ -71,14 +77,14 @@ impl Deformer {
         }
         let scopes = OpenScopes::push(device);
         Ok(Self {
-            casters: BTreeMap::new(),
+            pool: Pool::default(),
             next_handle: 0,
             most_bytes: limits.max_storage_buffer_binding_size.min(limits.max_buffer_size),
-            tables: Tables::default(),
             pipeline: None,
             resources: None,
             watch: DeviceWatch::new(device, scopes, 0)?,
             upload_bytes: 0,
+            set_up_bytes: 0,
         })
     }
 
@@ -88,36 +94,25 @@ impl Deformer {
     ///
     /// All meshes together are more than a buffer of the device holds; then it is not added.
     pub fn add(&mut self, mesh: Arc<DeformingMesh>) -> Result<DeformHandle, AddDeformingError> {
-        let with_it = Tables::new(self.casters.values().chain([&mesh]));
-        with_it.check_sizes(self.most_bytes)?;
         let handle = DeformHandle(self.next_handle);
+        self.pool.add(handle, mesh, self.most_bytes)?;
         self.next_handle += 1;
-        self.casters.insert(handle, mesh);
-        self.follow(with_it);
         Ok(handle)
     }
 
-    /// Removes a mesh; false where it was not there. The others keep their handles; their positions are elsewhere after
-    /// the next [`prepare`](Self::prepare).
+    /// Removes a mesh; false where it was not there. The others keep their handles and their positions; those of meshes that
+    /// come later lie where it lay.
     pub fn remove(&mut self, caster: DeformHandle) -> bool {
-        let was_there = self.casters.remove(&caster).is_some();
-        if was_there {
-            self.follow(Tables::new(self.casters.values()));
-        }
-        was_there
+        self.pool.remove(caster)
     }
 
-    fn follow(&mut self, tables: Tables) {
-        self.tables = tables;
-        self.resources = None;
-    }
-
-    /// Prepares a frame: uploads joint matrices and weights, and, where meshes came or went, the meshes.
+    /// Prepares a frame: uploads joint matrices and weights, and the meshes that came.
     ///
     /// # Errors
     ///
     /// A pose is missing, is of no mesh here, or has other joints or morph targets than its mesh or numbers that are not
-    /// finite; then nothing has changed. Where the device fails, the next prepare makes everything again.
+    /// finite; then nothing has changed. Where the device fails, the next prepare makes everything again, and positions are
+    /// elsewhere.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -127,20 +122,28 @@ impl Deformer {
         self.watch.check(device)?;
         let late = self.watch.late();
         self.keep_if(late)?;
-        let poses = Poses::new(&self.casters, inputs)?;
-        self.upload_bytes = 0;
-        if self.casters.is_empty() {
+        (self.upload_bytes, self.set_up_bytes) = (0, 0);
+        if self.resources.is_none() {
+            self.pool.pack(self.most_bytes);
+        }
+        let mut poses = Poses::new(&self.pool, inputs)?;
+        if self.pool.casters.is_empty() {
+            self.resources = None;
             return Ok(());
         }
-        if self.resources.is_none() {
+        if self.pool.has_changed {
             let scopes = OpenScopes::push(device);
             let pipeline = self.pipeline.get_or_insert_with(|| DeformPipeline::new(device));
-            self.resources = Some(DeformResources::new(device, queue, pipeline, &self.tables));
-            let made = self.watch.close(device, scopes, self.tables.bytes());
+            let before = self.resources.take();
+            let (made, bytes) =
+                DeformResources::follow(before, (device, queue), pipeline, &mut self.pool, self.most_bytes);
+            self.resources = Some(made);
+            self.set_up_bytes = bytes;
+            let made = self.watch.close(device, scopes, bytes);
             self.keep_if(made)?;
         }
         if let Some(resources) = &self.resources {
-            self.upload_bytes = resources.upload(queue, &poses);
+            self.upload_bytes = resources.upload(queue, &mut poses);
         }
         Ok(())
     }
@@ -155,7 +158,7 @@ impl Deformer {
 
     /// Records the stage; nothing where there is no mesh or no frame was prepared since the last one came or went.
     pub fn encode<T: PassTimer>(&self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
-        if let (Some(pipeline), Some(resources)) = (&self.pipeline, &self.resources) {
+        if let (Some(pipeline), Some(resources), false) = (&self.pipeline, &self.resources, self.pool.has_changed) {
             pipeline.encode(encoder, resources, timer);
         }
     }
@@ -163,14 +166,18 @@ impl Deformer {
     /// Where the positions of a mesh lie once the recorded commands have run, for [`CasterInput`](crate::CasterInput)
     /// and, as 12 bytes a vertex, for vertex buffers; none before a frame was prepared with the mesh.
     pub fn positions(&self, caster: DeformHandle) -> Option<Positions> {
-        let index = self.casters.keys().position(|&handle| handle == caster)?;
-        let buffer = &self.resources.as_ref()?.positions;
-        let offset = 4 * u64::from(self.tables.first_position_words[index]);
-        Some(Positions::InBuffer { buffer: buffer.clone(), offset, stride: 12 })
+        let caster = self.pool.casters.get(&caster).filter(|caster| !caster.is_new)?;
+        let buffer = self.resources.as_ref()?.positions(caster.batch)?;
+        Some(Positions::InBuffer { buffer: buffer.clone(), offset: 4 * caster.first_word, stride: 12 })
     }
 
     /// Bytes of joint matrices and weights that the last [`prepare`](Self::prepare) uploaded.
     pub fn upload_bytes(&self) -> u64 {
         self.upload_bytes
+    }
+
+    /// Bytes that it uploaded once because meshes came or went. Copies on the device are not among them.
+    pub fn set_up_bytes(&self) -> u64 {
+        self.set_up_bytes
     }
 }

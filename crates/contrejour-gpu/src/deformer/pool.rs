@@ -1,164 +1,255 @@
-//! Deforming meshes side by side, and the poses of a frame, before they go to the device.
+//! Deforming meshes and their casters, and where they lie on the device: what stays keeps its places.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use contrejour_layout::{BLOCK_SIZE, DeformBlock, Influence, JointMatrix, MorphDelta, RestVertex};
 use contrejour_mesh::DeformingMesh;
-use glam::DMat4;
 
-use super::{AddDeformingError, DeformError, DeformHandle, DeformInput};
+use super::{AddDeformingError, DeformHandle};
+use crate::ranges::Ranges;
+use crate::records::Records;
 
-/// What is written when meshes come or go.
+/// Vertices, influences and morph deltas of meshes, then joints and morph weights of casters.
+pub(super) type PerPool<T> = [T; 5];
+
+/// The pools, with the size of a record.
+pub(super) const POOLS: PerPool<(&str, u64)> = [
+    ("vertices", size_of::<RestVertex>() as u64),
+    ("influences", size_of::<Influence>() as u64),
+    ("morph deltas", size_of::<MorphDelta>() as u64),
+    ("joints", size_of::<JointMatrix>() as u64),
+    ("morph weights", size_of::<f32>() as u64),
+];
+
+/// How many of the pools hold what was written when meshes came.
+pub(super) const MESH_POOLS: usize = 3;
+
+/// Words of a position.
+const POSITION_WORDS: u64 = 3;
+
+/// All casters, by their handles, with their meshes.
 #[derive(Debug, Default)]
-pub(super) struct Tables {
-    /// Each mesh once, however many casters share it.
-    pub meshes: Vec<Arc<DeformingMesh>>,
-    pub blocks: Vec<DeformBlock>,
-    /// Where the positions of each caster begin.
-    pub first_position_words: Vec<u32>,
-    /// Numbers of records in the pools.
-    pub sizes: Sizes,
+pub(super) struct Pool {
+    pub casters: BTreeMap<DeformHandle, DeformingCaster>,
+    /// Each once, however many casters share it, by its address.
+    pub meshes: BTreeMap<usize, SharedMesh>,
+    places: PerPool<Ranges>,
+    /// By index; none where the last caster left.
+    pub batches: Vec<Option<Batch>>,
+    /// Whether casters came or went since [`note_written`](Self::note_written).
+    pub has_changed: bool,
 }
 
-/// Numbers of records in the pools.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sizes {
-    pub vertices: u64,
-    pub influences: u64,
-    pub morph_deltas: u64,
-    pub joints: u64,
-    pub morph_weights: u64,
-    pub position_words: u64,
+/// A mesh, and where it lies.
+#[derive(Debug)]
+pub(super) struct SharedMesh {
+    pub mesh: Arc<DeformingMesh>,
+    pub starts: PerPool<u64>,
+    pub is_new: bool,
+    casters: usize,
 }
 
-impl Tables {
-    /// The casters in the order of their handles. Where something does not fit, [`check_sizes`](Self::check_sizes) tells;
-    /// places beyond 32 bits mean nothing.
-    pub fn new<'a>(casters: impl Iterator<Item = &'a Arc<DeformingMesh>>) -> Self {
-        let mut tables = Self::default();
-        let mut known = HashMap::new();
-        for mesh in casters {
-            let first = *known.entry(Arc::as_ptr(mesh)).or_insert_with(|| tables.place(mesh));
-            tables.place_caster(mesh, first);
-        }
-        tables
-    }
+/// A caster, and where it lies.
+#[derive(Debug)]
+pub(super) struct DeformingCaster {
+    pub mesh: Arc<DeformingMesh>,
+    pub starts: PerPool<u64>,
+    pub batch: usize,
+    pub first_word: u64,
+    pub is_new: bool,
+    blocks: Range<u64>,
+}
 
-    /// Puts a mesh behind the others; returns where it begins.
-    fn place(&mut self, mesh: &Arc<DeformingMesh>) -> Sizes {
-        let first = self.sizes;
-        self.sizes.vertices += mesh.vertices().len() as u64;
-        self.sizes.influences += mesh.influences().len() as u64;
-        self.sizes.morph_deltas += mesh.morph_deltas().len() as u64;
-        self.meshes.push(Arc::clone(mesh));
-        first
-    }
+/// Casters whose positions are in one buffer. That is never another one, so who reads them need not look again: where it
+/// has no room, what comes begins another batch.
+#[derive(Debug)]
+pub(super) struct Batch {
+    words: Ranges,
+    blocks: Ranges,
+    /// Words that its buffer holds; none before it is made.
+    pub room: Option<u64>,
+    pub records: Records<DeformBlock>,
+    casters: usize,
+}
 
-    fn place_caster(&mut self, mesh: &DeformingMesh, mesh_first: Sizes) {
-        let first = self.sizes;
-        let vertex_count = mesh.vertices().len() as u32;
-        self.first_position_words.push(first.position_words as u32);
-        for first_vertex in (0..vertex_count).step_by(BLOCK_SIZE as usize) {
-            self.blocks.push(DeformBlock {
-                first_vertex: mesh_first.vertices as u32 + first_vertex,
-                vertex_count: BLOCK_SIZE.min(vertex_count - first_vertex),
-                first_influence: mesh_first.influences as u32,
-                first_morph_delta: mesh_first.morph_deltas as u32,
-                first_joint: first.joints as u32,
-                first_morph_weight: first.morph_weights as u32,
-                first_position_word: (first.position_words as u32).wrapping_add(3 * first_vertex),
-            });
-        }
-        self.sizes.joints += u64::from(mesh.joint_count());
-        self.sizes.morph_weights += u64::from(mesh.morph_count());
-        self.sizes.position_words += 3 * u64::from(vertex_count);
-    }
-
-    /// Bytes of each pool, and what it holds.
-    pub fn pool_bytes(&self) -> [(&'static str, u64); 7] {
-        let sizes = &self.sizes;
-        [
-            ("blocks", (self.blocks.len() * size_of::<DeformBlock>()) as u64),
-            ("vertices", sizes.vertices * size_of::<RestVertex>() as u64),
-            ("influences", sizes.influences * size_of::<Influence>() as u64),
-            ("morph deltas", sizes.morph_deltas * size_of::<MorphDelta>() as u64),
-            ("joints", sizes.joints * size_of::<JointMatrix>() as u64),
-            ("morph weights", sizes.morph_weights * size_of::<f32>() as u64),
-            ("positions", sizes.position_words * 4),
-        ]
-    }
-
-    /// Bytes of all pools.
-    pub fn bytes(&self) -> u64 {
-        self.pool_bytes().iter().map(|(_, bytes)| bytes).sum()
-    }
-
-    /// Each pool fits a binding, and so 32-bit indices fit all pools.
-    pub fn check_sizes(&self, most: u64) -> Result<(), AddDeformingError> {
+impl Pool {
+    /// Adds a caster.
+    ///
+    /// # Errors
+    ///
+    /// A buffer would have more than `most` bytes; then nothing has changed.
+    pub fn add(&mut self, handle: DeformHandle, mesh: Arc<DeformingMesh>, most: u64) -> Result<(), AddDeformingError> {
         // Words are indexed too.
         let most = most.min(4 * u64::from(u32::MAX));
-        match self.pool_bytes().into_iter().find(|&(_, bytes)| bytes > most) {
+        self.check_sizes(&mesh, most)?;
+        let caster = self.place(mesh, most / 4);
+        self.casters.insert(handle, caster);
+        self.has_changed = true;
+        Ok(())
+    }
+
+    fn check_sizes(&self, mesh: &Arc<DeformingMesh>, most: u64) -> Result<(), AddDeformingError> {
+        let is_known = self.meshes.contains_key(&key(mesh));
+        let pools = (POOLS.iter().zip(&self.places).zip(lengths(mesh)).enumerate()).map(
+            |(index, ((&(what, size), places), length))| {
+                let is_there = is_known && index < MESH_POOLS;
+                (what, size.saturating_mul(if is_there { places.end() } else { places.end_with(length) }))
+            },
+        );
+        // A batch of its own has room for them.
+        let blocks = ("blocks", block_count(mesh) * size_of::<DeformBlock>() as u64);
+        let positions = ("positions", 4 * words(mesh));
+        match pools.chain([blocks, positions]).find(|&(_, bytes)| bytes > most) {
             Some((what, bytes)) => Err(AddDeformingError::TooLarge { what, bytes, most }),
             None => Ok(()),
         }
     }
-}
 
-/// What is written each frame.
-#[derive(Debug, Default)]
-pub(super) struct Poses {
-    pub joint_matrices: Vec<JointMatrix>,
-    pub morph_weights: Vec<f32>,
-}
+    /// Gives a caster its places, and its mesh where it is the first one of it.
+    fn place(&mut self, mesh: Arc<DeformingMesh>, most_words: u64) -> DeformingCaster {
+        let lengths = lengths(&mesh);
+        let take = |places: &mut PerPool<Ranges>, pools: Range<usize>| {
+            let mut starts = PerPool::default();
+            pools.for_each(|pool| starts[pool] = places[pool].take(lengths[pool]));
+            starts
+        };
+        let shared = self.meshes.entry(key(&mesh)).or_insert_with(|| SharedMesh {
+            mesh: Arc::clone(&mesh),
+            starts: take(&mut self.places, 0..MESH_POOLS),
+            is_new: true,
+            casters: 0,
+        });
+        shared.casters += 1;
+        let mesh_starts = shared.starts;
+        let starts = take(&mut self.places, MESH_POOLS..POOLS.len());
 
-const JOINT_MATRICES: &str = "joint matrices";
-const MORPH_WEIGHTS: &str = "morph weights";
-
-impl Poses {
-    /// The poses in the order of the casters.
-    pub fn new(
-        casters: &BTreeMap<DeformHandle, Arc<DeformingMesh>>,
-        inputs: &[DeformInput<'_>],
-    ) -> Result<Self, DeformError> {
-        if let Some(&DeformInput { caster, .. }) = inputs.iter().find(|input| !casters.contains_key(&input.caster)) {
-            return Err(DeformError::UnknownCaster { caster });
-        }
-        let by_caster: HashMap<_, _> = inputs.iter().map(|input| (input.caster, input)).collect();
-        let mut poses = Self::default();
-        for (&caster, mesh) in casters {
-            let input = by_caster.get(&caster).ok_or(DeformError::MissingPose { caster })?;
-            poses.add(input, mesh)?;
-        }
-        Ok(poses)
+        let index = self.batch_for(words(&mesh), block_count(&mesh), most_words);
+        let batch = self.batches[index].get_or_insert_with(Batch::default);
+        batch.casters += 1;
+        let first_word = batch.words.take(words(&mesh));
+        let first_block = batch.blocks.take(block_count(&mesh));
+        let blocks = first_block..first_block + block_count(&mesh);
+        batch.records.put(first_block as usize, deform_blocks(&mesh, mesh_starts, starts, first_word));
+        DeformingCaster { mesh, starts, batch: index, first_word, is_new: true, blocks }
     }
 
-    fn add(&mut self, input: &DeformInput<'_>, mesh: &DeformingMesh) -> Result<(), DeformError> {
-        let DeformInput { caster, joint_matrices, morph_weights } = *input;
-        let counts = [
-            (JOINT_MATRICES, joint_matrices.len(), mesh.joint_count()),
-            (MORPH_WEIGHTS, morph_weights.len(), mesh.morph_count()),
-        ];
-        for (what, given, needed) in counts {
-            if given != needed as usize {
-                return Err(DeformError::Count { caster, what, given, needed });
+    /// The first batch with room; its blocks are fewer bytes than its positions, but for tiny meshes.
+    fn batch_for(&mut self, words: u64, blocks: u64, most_words: u64) -> usize {
+        let most_blocks = 4 * most_words / size_of::<DeformBlock>() as u64;
+        let has_room = |batch: &Option<Batch>| {
+            batch.as_ref().is_some_and(|batch| {
+                batch.words.end_with(words) <= batch.room.unwrap_or(most_words)
+                    && batch.blocks.end_with(blocks) <= most_blocks
+            })
+        };
+        let found = self.batches.iter().position(has_room);
+        found.or_else(|| self.batches.iter().position(Option::is_none)).unwrap_or_else(|| {
+            self.batches.push(None);
+            self.batches.len() - 1
+        })
+    }
+
+    /// Removes a caster; false where it was not there.
+    pub fn remove(&mut self, handle: DeformHandle) -> bool {
+        let Some(caster) = self.casters.remove(&handle) else { return false };
+        self.has_changed = true;
+        let lengths = lengths(&caster.mesh);
+        let mut give_back = |starts: &PerPool<u64>, pools: Range<usize>| {
+            pools.for_each(|pool| self.places[pool].give_back(starts[pool], lengths[pool]));
+        };
+        give_back(&caster.starts, MESH_POOLS..POOLS.len());
+        if let Some(shared) = self.meshes.get_mut(&key(&caster.mesh)) {
+            shared.casters -= 1;
+            if shared.casters == 0 {
+                give_back(&shared.starts, 0..MESH_POOLS);
+                self.meshes.remove(&key(&caster.mesh));
             }
         }
-        let (first_joint, first_weight) = (self.joint_matrices.len(), self.morph_weights.len());
-        self.joint_matrices.extend(joint_matrices.iter().map(joint_matrix));
-        self.morph_weights.extend(morph_weights.iter().map(|&weight| weight as f32));
-        let mut numbers = self.joint_matrices[first_joint..].iter().flat_map(|matrix| matrix.rows.as_flattened());
-        if !numbers.all(|number| number.is_finite()) {
-            return Err(DeformError::NotFinite { caster, what: JOINT_MATRICES });
+        if let Some(batch) = &mut self.batches[caster.batch] {
+            batch.words.give_back(caster.first_word, words(&caster.mesh));
+            batch.blocks.give_back(caster.blocks.start, caster.blocks.end - caster.blocks.start);
+            // A block of no vertices does nothing.
+            batch.records.put(caster.blocks.start as usize, caster.blocks.clone().map(|_| DeformBlock::default()));
+            batch.casters -= 1;
+            if batch.casters == 0 {
+                self.batches[caster.batch] = None;
+            }
         }
-        if !self.morph_weights[first_weight..].iter().all(|weight| weight.is_finite()) {
-            return Err(DeformError::NotFinite { caster, what: MORPH_WEIGHTS });
+        true
+    }
+
+    /// Places everything side by side. For when nothing is on the device.
+    pub fn pack(&mut self, most: u64) {
+        let casters = std::mem::take(&mut self.casters);
+        *self = Self { has_changed: true, ..Self::default() };
+        for (handle, caster) in casters {
+            let caster = self.place(caster.mesh, most.min(4 * u64::from(u32::MAX)) / 4);
+            self.casters.insert(handle, caster);
         }
-        Ok(())
+    }
+
+    /// Where the last record of each pool ends.
+    pub fn ends(&self) -> PerPool<u64> {
+        self.places.each_ref().map(Ranges::end)
+    }
+
+    /// Notes that everything is on the device.
+    pub fn note_written(&mut self) {
+        self.has_changed = false;
+        self.meshes.values_mut().for_each(|mesh| mesh.is_new = false);
+        self.casters.values_mut().for_each(|caster| caster.is_new = false);
     }
 }
 
-/// The upper three rows.
-fn joint_matrix(matrix: &DMat4) -> JointMatrix {
-    JointMatrix { rows: [0, 1, 2].map(|row| matrix.row(row).as_vec4().to_array()) }
+impl Default for Batch {
+    fn default() -> Self {
+        let records = Records::filled_with(DeformBlock::default());
+        Self { words: Ranges::default(), blocks: Ranges::default(), room: None, records, casters: 0 }
+    }
+}
+
+impl Batch {
+    /// Where its last position ends.
+    pub fn word_end(&self) -> u64 {
+        self.words.end()
+    }
+}
+
+fn key(mesh: &Arc<DeformingMesh>) -> usize {
+    Arc::as_ptr(mesh).addr()
+}
+
+fn words(mesh: &DeformingMesh) -> u64 {
+    POSITION_WORDS * mesh.vertices().len() as u64
+}
+
+fn block_count(mesh: &DeformingMesh) -> u64 {
+    mesh.vertices().len().div_ceil(BLOCK_SIZE as usize) as u64
+}
+
+fn lengths(mesh: &DeformingMesh) -> PerPool<u64> {
+    let [vertices, influences, morph_deltas] =
+        [mesh.vertices().len(), mesh.influences().len(), mesh.morph_deltas().len()].map(|length| length as u64);
+    [vertices, influences, morph_deltas, mesh.joint_count().into(), mesh.morph_count().into()]
+}
+
+/// The blocks of a caster; sizes were checked, so 32 bits hold all places.
+fn deform_blocks(
+    mesh: &DeformingMesh,
+    [vertices, influences, morph_deltas, ..]: PerPool<u64>,
+    [.., joints, morph_weights]: PerPool<u64>,
+    first_word: u64,
+) -> impl Iterator<Item = DeformBlock> {
+    let vertex_count = mesh.vertices().len() as u32;
+    (0..vertex_count).step_by(BLOCK_SIZE as usize).map(move |first_vertex| DeformBlock {
+        first_vertex: vertices as u32 + first_vertex,
+        vertex_count: BLOCK_SIZE.min(vertex_count - first_vertex),
+        first_influence: influences as u32,
+        first_morph_delta: morph_deltas as u32,
+        first_joint: joints as u32,
+        first_morph_weight: morph_weights as u32,
+        first_position_word: first_word as u32 + POSITION_WORDS as u32 * first_vertex,
+    })
 }

@@ -1,8 +1,9 @@
 //! The stage `deform_positions` on the device: its pipeline, its buffers, its dispatch.
 
-use contrejour_layout::{Influence, MorphDelta, RestVertex};
+use contrejour_layout::DeformBlock;
 
-use super::pool::{Poses, Tables};
+use super::pool::{Batch, MESH_POOLS, POOLS, PerPool, Pool, SharedMesh};
+use super::poses::Poses;
 use crate::compute::dispatch;
 use crate::stages::{SCENE, SceneComputeStage};
 use crate::timer::PassTimer;
@@ -14,14 +15,21 @@ pub(super) struct DeformPipeline {
     pipeline: wgpu::ComputePipeline,
 }
 
-/// Buffers of a set of casters.
+/// The buffers of all casters.
 #[derive(Debug)]
 pub(super) struct DeformResources {
-    pub positions: wgpu::Buffer,
-    joint_matrices: wgpu::Buffer,
-    morph_weights: wgpu::Buffer,
-    bind_group: wgpu::BindGroup,
+    pools: PerPool<wgpu::Buffer>,
+    /// As those of the pool.
+    batches: Vec<Option<BatchBuffers>>,
+}
+
+/// The buffers of a batch.
+#[derive(Debug)]
+struct BatchBuffers {
+    positions: wgpu::Buffer,
+    blocks: wgpu::Buffer,
     block_count: u32,
+    bind_group: wgpu::BindGroup,
 }
 
 const STAGE: SceneComputeStage = SCENE[0];
@@ -67,7 +75,7 @@ impl DeformPipeline {
         Self { layout, pipeline }
     }
 
-    /// Records the dispatch as a pass of its own, so that a timer sees it alone.
+    /// Records a dispatch for each batch, in a pass of its own, so that a timer sees it alone.
     pub fn encode<T: PassTimer>(&self, encoder: &mut wgpu::CommandEncoder, resources: &DeformResources, timer: &mut T) {
         let name = STAGE.stage.name();
         let query = timer.begin(name, encoder);
@@ -77,61 +85,168 @@ impl DeformPipeline {
                 timestamp_writes: T::compute_writes(&query),
             });
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &resources.bind_group, &[]);
-            dispatch(&mut pass, resources.block_count);
+            for batch in resources.batches.iter().flatten() {
+                pass.set_bind_group(0, &batch.bind_group, &[]);
+                dispatch(&mut pass, batch.block_count);
+            }
         }
         timer.end(query, encoder);
     }
 }
 
+/// Makes buffers and writes to them, and counts the bytes.
+struct Maker<'a> {
+    device: &'a wgpu::Device,
+    queue: &'a wgpu::Queue,
+    /// Most bytes of a buffer.
+    most: u64,
+    /// Copies of what buffers held that grew.
+    encoder: Option<wgpu::CommandEncoder>,
+    bytes: u64,
+}
+
 impl DeformResources {
-    /// Makes the buffers and fills those that no pose changes.
-    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, pipeline: &DeformPipeline, tables: &Tables) -> Self {
-        let common = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
-        let buffers = tables.pool_bytes().map(|(name, bytes)| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(&format!("deforming {name}")),
-                size: bytes.max(LEAST_BYTES),
-                // Renderers draw from the positions.
-                usage: if name == "positions" { common | wgpu::BufferUsages::VERTEX } else { common },
-                mapped_at_creation: false,
-            })
+    /// Makes and fills what is needed; returns the bytes that it uploaded. Of what was made before, what stays is not
+    /// uploaded again: pools that get too small grow by half, by copies on the device, and positions stay where they are.
+    pub fn follow(
+        before: Option<Self>,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        pipeline: &DeformPipeline,
+        pool: &mut Pool,
+        most: u64,
+    ) -> (Self, u64) {
+        let mut maker = Maker { device, queue, most, encoder: None, bytes: 0 };
+        let (old_pools, mut old_batches) = match before {
+            Some(Self { pools, batches }) => (pools.map(Some), batches),
+            None => (PerPool::default(), Vec::new()),
+        };
+        old_batches.resize_with(pool.batches.len(), || None);
+        let ends = pool.ends();
+        let pools: PerPool<wgpu::Buffer> = std::array::from_fn(|index| {
+            let (what, size) = POOLS[index];
+            maker.grown(what, old_pools[index].as_ref(), size * ends[index], index < MESH_POOLS)
         });
-        let entries: Vec<_> = (buffers.iter().zip(0..))
+        let has_new_pools = pools.iter().zip(&old_pools).any(|(new, old)| old.as_ref() != Some(new));
+        let all_words: u64 = pool.batches.iter().flatten().filter_map(|batch| batch.room).sum();
+        let batches = pool.batches.iter_mut().zip(old_batches).map(|(batch, old)| {
+            // Another one may have come to the place of one that left.
+            let old = old.filter(|_| batch.as_ref().is_some_and(|batch| batch.room.is_some()));
+            batch.as_mut().map(|batch| maker.batch(batch, old, (pipeline, &pools, has_new_pools), all_words))
+        });
+        let batches = batches.collect();
+        if let Some(encoder) = maker.encoder.take() {
+            queue.submit([encoder.finish()]);
+        }
+        pool.meshes.values().filter(|mesh| mesh.is_new).for_each(|mesh| maker.write_mesh(&pools, mesh));
+        let mut made = Self { pools, batches };
+        made.write_blocks(pool, &mut maker);
+        pool.note_written();
+        (made, maker.bytes)
+    }
+
+    fn write_blocks(&mut self, pool: &mut Pool, maker: &mut Maker<'_>) {
+        for (batch, buffers) in pool.batches.iter_mut().zip(&self.batches) {
+            let (Some(batch), Some(buffers)) = (batch, buffers) else { continue };
+            batch.records.take_changed(false, |offset, bytes| maker.write(&buffers.blocks, offset, bytes));
+        }
+    }
+
+    /// The buffer of the positions of a batch.
+    pub fn positions(&self, batch: usize) -> Option<&wgpu::Buffer> {
+        Some(&self.batches.get(batch)?.as_ref()?.positions)
+    }
+
+    /// Uploads the poses; returns the number of bytes.
+    pub fn upload(&self, queue: &wgpu::Queue, poses: &mut Poses) -> u64 {
+        let [.., joint_matrices, morph_weights] = &self.pools;
+        let mut uploaded = 0;
+        let mut write = |buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]| {
+            if !bytes.is_empty() {
+                queue.write_buffer(buffer, offset, bytes);
+                uploaded += bytes.len() as u64;
+            }
+        };
+        poses.joint_matrices.take_changed(false, |offset, bytes| write(joint_matrices, offset, bytes));
+        poses.morph_weights.take_changed(false, |offset, bytes| write(morph_weights, offset, bytes));
+        uploaded
+    }
+}
+
+impl Maker<'_> {
+    fn make(&self, what: &str, bytes: u64) -> wgpu::Buffer {
+        let common = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(&format!("deforming {what}")),
+            size: bytes.max(LEAST_BYTES),
+            // Renderers draw from the positions.
+            usage: if what == "positions" { common | wgpu::BufferUsages::VERTEX } else { common },
+            mapped_at_creation: false,
+        })
+    }
+
+    /// The buffer as it was where it has room; else one that has, as large as needed at first and later half larger.
+    fn grown(&mut self, what: &str, old: Option<&wgpu::Buffer>, needed: u64, keeps_content: bool) -> wgpu::Buffer {
+        let Some(old) = old else { return self.make(what, needed) };
+        if needed <= old.size() {
+            return old.clone();
+        }
+        let new = self.make(what, (needed + needed / 8 * 4).min(self.most / 4 * 4).max(needed));
+        if keeps_content {
+            let encoder = self.encoder.get_or_insert_with(|| self.device.create_command_encoder(&Default::default()));
+            encoder.copy_buffer_to_buffer(old, 0, &new, 0, old.size());
+        }
+        new
+    }
+
+    fn batch(
+        &mut self,
+        batch: &mut Batch,
+        old: Option<BatchBuffers>,
+        (pipeline, pools, has_new_pools): (&DeformPipeline, &PerPool<wgpu::Buffer>, bool),
+        all_words: u64,
+    ) -> BatchBuffers {
+        let needed = (batch.records.len() * size_of::<DeformBlock>()) as u64;
+        let blocks = self.grown("blocks", old.as_ref().map(|old| &old.blocks), needed, true);
+        let block_count = batch.records.len() as u32;
+        let stays = |old: &BatchBuffers| !has_new_pools && old.blocks == blocks;
+        let positions = match old {
+            Some(old) if stays(&old) => return BatchBuffers { block_count, ..old },
+            Some(old) => old.positions,
+            // Those that come next may have room in it: so batches are few.
+            None => {
+                let words = batch.word_end().max((all_words / 2).min(self.most / 4));
+                batch.room = Some(words);
+                self.make("positions", 4 * words)
+            }
+        };
+        let [vertices, influences, morph_deltas, joints, weights] = pools;
+        let bound = [&blocks, vertices, influences, morph_deltas, joints, weights, &positions];
+        let entries: Vec<_> = (bound.into_iter().zip(0..))
             .map(|(buffer, binding)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
             .collect();
-        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let bind_group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(STAGE.stage.name()),
             layout: &pipeline.layout,
             entries: &entries,
         });
-        let [blocks, vertices, influences, morph_deltas, joint_matrices, morph_weights, positions] = buffers;
-        write(queue, &blocks, 0, bytemuck::cast_slice(&tables.blocks));
-        let mut offsets = [0; 3];
-        for mesh in &tables.meshes {
-            write(queue, &vertices, offsets[0], bytemuck::cast_slice::<RestVertex, u8>(mesh.vertices()));
-            write(queue, &influences, offsets[1], bytemuck::cast_slice::<Influence, u8>(mesh.influences()));
-            write(queue, &morph_deltas, offsets[2], bytemuck::cast_slice::<MorphDelta, u8>(mesh.morph_deltas()));
-            offsets[0] += size_of_val(mesh.vertices()) as u64;
-            offsets[1] += size_of_val(mesh.influences()) as u64;
-            offsets[2] += size_of_val(mesh.morph_deltas()) as u64;
+        BatchBuffers { positions, blocks, block_count, bind_group }
+    }
+
+    fn write_mesh(&mut self, pools: &PerPool<wgpu::Buffer>, SharedMesh { mesh, starts, .. }: &SharedMesh) {
+        let contents: [&[u8]; MESH_POOLS] = [
+            bytemuck::cast_slice(mesh.vertices()),
+            bytemuck::cast_slice(mesh.influences()),
+            bytemuck::cast_slice(mesh.morph_deltas()),
+        ];
+        for (index, bytes) in contents.into_iter().enumerate() {
+            self.write(&pools[index], POOLS[index].1 * starts[index], bytes);
         }
-        let block_count = tables.blocks.len() as u32;
-        Self { positions, joint_matrices, morph_weights, bind_group, block_count }
     }
 
-    /// Uploads the poses; returns the number of bytes.
-    pub fn upload(&self, queue: &wgpu::Queue, poses: &Poses) -> u64 {
-        let joint_matrices = bytemuck::cast_slice(&poses.joint_matrices);
-        let morph_weights = bytemuck::cast_slice(&poses.morph_weights);
-        write(queue, &self.joint_matrices, 0, joint_matrices);
-        write(queue, &self.morph_weights, 0, morph_weights);
-        (joint_matrices.len() + morph_weights.len()) as u64
-    }
-}
-
-fn write(queue: &wgpu::Queue, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
-    if !bytes.is_empty() {
-        queue.write_buffer(buffer, offset, bytes);
+    fn write(&mut self, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
+        if !bytes.is_empty() {
+            self.queue.write_buffer(buffer, offset, bytes);
+            self.bytes += bytes.len() as u64;
+        }
     }
 }
