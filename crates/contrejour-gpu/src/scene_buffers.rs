@@ -98,23 +98,13 @@ impl SceneBuffers {
         let has_new_buffers = !made.is_empty();
         let have_one_page = self.pages.len() == 1 && plan.pages.len() == 1;
         let empty = keep_contents(device, queue, &self.shared, made, have_one_page);
-
-        // Where nobody reads planes, their buffer has no room for them.
-        let has_planes = plan.reason(&Omitted::FacePlanes).is_none() && plan.buffer(BufferKind::Planes).is_some();
-        let has_edges = plan.buffer(BufferKind::Edges).is_some();
-        let pieces = !have_one_page && (meshes.has_changed() || !hold_the_same_pieces(&self.pages, &plan.pages));
-        let casters_differ = || casters.has_changed() || !hold_the_same_casters(&self.pages, &plan.pages);
-        // Blocks say whether their faces have planes.
-        let has_other_kinds = (has_planes, has_edges) != (self.has_planes, self.has_edges);
-        let tables = has_other_kinds || !have_one_page && (pieces || casters_differ());
-        let stale = Stale { empty, pieces, planes: pieces || has_planes && !self.has_planes, tables };
-        (self.has_planes, self.has_edges) = (has_planes, has_edges);
+        let stale = self.stale(plan, empty, have_one_page, (meshes, casters));
 
         let mut upload = Upload { shared: &self.shared, queue, bytes: 0 };
         let placed = meshes.placed(&plan.pages);
-        upload.meshes(meshes, &placed, &stale, has_planes);
+        upload.meshes(meshes, &placed, &stale, self.has_planes);
         casters.write_tables(&mut self.tables, stale.tables, meshes, (&plan.pages, &placed));
-        upload.tables(&mut self.tables, &stale, has_edges);
+        upload.tables(&mut self.tables, &stale, self.has_edges);
         let bytes = upload.bytes;
         if stale.empty.contains(&(BufferKind::CasterPlaces, 0)) {
             casters.move_all();
@@ -123,6 +113,26 @@ impl SceneBuffers {
         self.made = listed().copied().collect();
         self.pages.clone_from(&plan.pages);
         SetUp { bytes, has_new_buffers }
+    }
+
+    /// Decides what is to be written, and notes which kinds are.
+    fn stale(
+        &mut self,
+        plan: &FramePlan,
+        empty: BTreeSet<(BufferKind, usize)>,
+        have_one_page: bool,
+        (meshes, casters): (&MeshPool, &Casters),
+    ) -> Stale {
+        let before = (self.has_planes, self.has_edges);
+        // Where nobody reads planes, their buffer has no room for them.
+        self.has_planes = plan.reason(&Omitted::FacePlanes).is_none() && plan.buffer(BufferKind::Planes).is_some();
+        self.has_edges = plan.buffer(BufferKind::Edges).is_some();
+        let pieces = !have_one_page && (meshes.has_changed() || !hold_the_same_pieces(&self.pages, &plan.pages));
+        let casters_differ = || casters.has_changed() || !hold_the_same_casters(&self.pages, &plan.pages);
+        // Blocks say whether their faces have planes.
+        let has_other_kinds = (self.has_planes, self.has_edges) != before;
+        let tables = has_other_kinds || !have_one_page && (pieces || casters_differ());
+        Stale { empty, pieces, planes: pieces || self.has_planes && !before.0, tables }
     }
 
     /// Uploads the places of casters that moved; returns the bytes.
