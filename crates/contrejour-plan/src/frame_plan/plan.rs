@@ -108,7 +108,9 @@ impl FramePlan {
         let mut buffers = buffers(&kinds, &SceneSizes::new(scene, input.views.len()), &pages, device)?;
         if pages.len() == 1 && input.made.iter().all(|made| made.page == 0) {
             for buffer in buffers.iter_mut().filter(|buffer| !buffer.kind.is_of_light()) {
-                *buffer = with_room(*buffer, input.made, device);
+                let is_paged = buffer.kind.is_paged();
+                let expected = if is_paged { pages[0].sizes.expected_items(buffer.kind) } else { buffer.items };
+                *buffer = with_room(*buffer, expected, input.made, device);
             }
         }
         let kept = |kind: &TextureKind| visibility.is_some_and(|visibility| visibility.textures().contains(kind));

@@ -131,6 +131,11 @@ impl PageSizes {
         [BufferKind::FaceBlocks, BufferKind::EdgeBlocks].map(|kind| self.items(kind) as u32)
     }
 
+    /// Records, or words, that the scene is expected to need, whatever earlier frames did.
+    pub fn expected_items(&self, kind: BufferKind) -> u64 {
+        Self { floor: Capacity::default(), ..*self }.items(kind)
+    }
+
     /// Records, or words, of a buffer.
     fn items(&self, kind: BufferKind) -> u64 {
         let capacity = Capacity::expecting(self.outline_edges, self.edges, self.floor);

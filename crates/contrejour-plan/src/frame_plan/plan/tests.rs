@@ -680,6 +680,18 @@ fn buffers_grow_by_half_and_are_kept() {
 }
 
 #[test]
+fn lists_that_were_too_short_grow_as_far_as_was_counted() {
+    let mut case = Case::new(SceneFacts { meshes: vec![TORUS], ..cube_scene() });
+    let first = case.good();
+    case.made = first.buffers.clone();
+    let counted = contrejour_layout::Counters { quads: 60_000, ..Default::default() };
+    case.capacity = first.pages[0].capacity().grown_for(&counted);
+    let grown = Case { made: Vec::new(), ..case };
+    let (exact, case) = (grown.good(), Case { made: first.buffers, ..grown });
+    assert_eq!(case.good().buffers, exact.buffers);
+}
+
+#[test]
 fn planes_that_were_made_stay() {
     let mut case = Case::new(cube_scene());
     case.made = case.good().buffers;
