@@ -139,12 +139,12 @@ impl SceneBuffers {
     pub fn upload_places(&self, queue: &wgpu::Queue, casters: &mut Casters) -> u64 {
         let mut bytes = 0;
         let buffer = self.shared.find(BufferKind::CasterPlaces, 0);
+        let room = buffer.map_or(0, |buffer| buffer.size() as usize / size_of::<CasterPlace>());
         casters.take_moved(|slot, places| {
-            let offset = (slot * size_of::<CasterPlace>()) as u64;
-            let data = bytemuck::cast_slice(places);
-            // A caster that was the last one has left no room behind.
-            if let Some(buffer) = buffer.filter(|buffer| offset + data.len() as u64 <= buffer.size()) {
-                queue.write_buffer(buffer, offset, data);
+            // A caster that was the last one may have left no room behind.
+            let data: &[u8] = bytemuck::cast_slice(&places[..places.len().min(room.saturating_sub(slot))]);
+            if let Some(buffer) = buffer.filter(|_| !data.is_empty()) {
+                queue.write_buffer(buffer, (slot * size_of::<CasterPlace>()) as u64, data);
                 bytes += data.len() as u64;
             }
         });
