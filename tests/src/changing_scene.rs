@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use contrejour_gpu::{CasterHandle, CasterInput, LightHandle, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
-use contrejour_layout::{BLOCK_SIZE, Caster, Counters, SilhouetteEdge, WorkItem};
-use contrejour_mesh::TopologyAwareMesh;
+use contrejour_layout::{BLOCK_SIZE, Caster, Counters, Mask, SilhouetteEdge, WorkItem};
+use contrejour_mesh::{MaskedMesh, TopologyAwareMesh};
 use contrejour_plan::{BufferKind, Light, ShadowSettings};
 use glam::DMat4;
 
@@ -24,6 +24,8 @@ pub struct ChangingScene<'a> {
     pub casters: Vec<PlacedCaster>,
     /// The lights, each with its technique.
     pub lights: Vec<(LightHandle, Light, &'static str)>,
+    /// What cuts some of the meshes.
+    masks: BTreeMap<MeshHandle, Arc<MaskedMesh>>,
     gpu: &'a Gpu,
 }
 
@@ -58,7 +60,7 @@ impl<'a> ChangingScene<'a> {
     /// What the library refuses.
     pub fn new(gpu: &'a Gpu) -> Result<Self, String> {
         let shadows = Shadows::new(&gpu.device).map_err(text)?;
-        Ok(Self { shadows, meshes: Vec::new(), casters: Vec::new(), lights: Vec::new(), gpu })
+        Ok(Self { shadows, meshes: Vec::new(), casters: Vec::new(), lights: Vec::new(), masks: BTreeMap::new(), gpu })
     }
 
     /// The same content in a fresh object, in the order of the lists.
@@ -70,7 +72,11 @@ impl<'a> ChangingScene<'a> {
         let mut anew = Self::new(self.gpu)?;
         let mut meshes = BTreeMap::new();
         for (handle, mesh) in &self.meshes {
-            meshes.insert(*handle, anew.add_mesh(mesh)?);
+            let added = match self.masks.get(handle) {
+                Some(masked) => anew.add_masked_mesh(masked)?,
+                None => anew.add_mesh(mesh)?,
+            };
+            meshes.insert(*handle, added);
         }
         for PlacedCaster { input, .. } in &self.casters {
             let mesh = *meshes.get(&input.mesh).ok_or("the caster's mesh is there")?;
@@ -90,6 +96,18 @@ impl<'a> ChangingScene<'a> {
     pub fn add_mesh(&mut self, mesh: &Arc<TopologyAwareMesh>) -> Result<MeshHandle, String> {
         let handle = self.shadows.add_mesh(Arc::clone(mesh)).map_err(text)?;
         self.meshes.push((handle, Arc::clone(mesh)));
+        Ok(handle)
+    }
+
+    /// Adds a mesh that a mask cuts.
+    ///
+    /// # Errors
+    ///
+    /// As [`add_mesh`](Self::add_mesh).
+    pub fn add_masked_mesh(&mut self, mesh: &Arc<MaskedMesh>) -> Result<MeshHandle, String> {
+        let handle = self.shadows.add_masked_mesh(mesh).map_err(text)?;
+        self.meshes.push((handle, Arc::clone(mesh.mesh())));
+        self.masks.insert(handle, Arc::clone(mesh));
         Ok(handle)
     }
 
@@ -158,6 +176,7 @@ impl<'a> ChangingScene<'a> {
     /// As [`add_mesh`](Self::add_mesh).
     pub fn remove_mesh(&mut self, index: usize) -> Result<(), String> {
         let (handle, _) = self.meshes.remove(index);
+        self.masks.remove(&handle);
         self.shadows.remove_mesh(handle).map_err(text)
     }
 
@@ -326,6 +345,12 @@ pub fn mesh_bytes(mesh: &TopologyAwareMesh) -> u64 {
     let edges = size_of_val(&mesh.edges[..mesh.candidate_edge_count as usize]) + size_of_val(&mesh.incidences[..]);
     let vertex_edges = size_of_val(&mesh.vertex_edge_offsets[..]) + size_of_val(&mesh.vertex_edges[..]);
     (positions + faces + edges + vertex_edges) as u64
+}
+
+/// Bytes of a mask, its mesh apart.
+pub fn mask_bytes(mesh: &MaskedMesh) -> u64 {
+    let mask = mesh.mask();
+    (size_of::<Mask>() + 12 * mask.coordinates.len()) as u64 + mask.image.level_bytes()
 }
 
 /// Bytes of the blocks of a caster of a mesh.

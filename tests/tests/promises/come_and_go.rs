@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use contrejour_gpu::{CasterInput, MeshHandle, Positions, RemoveMeshError};
 use contrejour_layout::{BLOCK_SIZE, Caster, CasterPlace, LightView, NO_CASTER, WorkItem};
-use contrejour_mesh::{BuildOptions, Motion, TopologyAwareMesh};
+use contrejour_mesh::{AlphaMask, BuildOptions, MaskImage, MaskedMesh, Motion, TextureFilter, TopologyAwareMesh};
 use contrejour_plan::{BufferKind, Light};
 use contrejour_scene::shapes::Shape;
-use contrejour_tests::changing_scene::{ChangingScene, Left, block_bytes, compare_left, mesh_bytes};
+use contrejour_tests::changing_scene::{ChangingScene, Left, block_bytes, compare_left, mask_bytes, mesh_bytes};
 use contrejour_tests::gpu::{Gpu, gpu_with_small_buffers};
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::point;
@@ -46,6 +46,8 @@ struct Stock {
     meshes: Vec<Arc<TopologyAwareMesh>>,
     /// Each with positions of a caller's.
     deforming: Vec<(Arc<TopologyAwareMesh>, Positions)>,
+    /// Some with the same picture.
+    masked: Vec<Arc<MaskedMesh>>,
 }
 
 impl Stock {
@@ -63,7 +65,27 @@ impl Stock {
             Ok((Arc::new(built), Positions::InBuffer { buffer, offset: 0, stride: 16 }))
         };
         let deforming = made.iter().rev().skip(3).take(3).map(of_part).collect::<Result<_, String>>()?;
-        Ok(Self { meshes, deforming })
+        let mut random = Random::new(1);
+        let images = [[16, 9], [7, 20]].map(|size: [u32; 2]| {
+            let alphas = (0..size[0] * size[1]).map(|_| random.below(256) as u8).collect();
+            MaskImage::new(size, alphas, Default::default(), TextureFilter::Linear).map(Arc::new)
+        });
+        let [first, second] = images;
+        let (first, second) = (first.map_err(text)?, second.map_err(text)?);
+        let of_part = |(mesh, image): (&TestMesh, &Arc<MaskImage>)| {
+            let part = &mesh.parts[0];
+            let positions = &part.topology.positions;
+            let mask = AlphaMask {
+                coordinates: positions.iter().map(|&[x, y, z]| [x + 0.3 * y, z - 0.2 * y]).collect(),
+                alphas: vec![1.0; positions.len()],
+                image: Arc::clone(image),
+                cutoff: 0.5,
+            };
+            MaskedMesh::new(positions, &part.triangles, mask).map(Arc::new).map_err(text)
+        };
+        let cut = made.iter().rev().skip(2).zip([&first, &first, &second, &second, &first]);
+        let masked = cut.map(of_part).collect::<Result<_, String>>()?;
+        Ok(Self { meshes, deforming, masked })
     }
 }
 
@@ -113,18 +135,17 @@ struct Bustle<'a> {
 }
 
 impl<'a> Bustle<'a> {
-    /// With a light, a mesh and a caster that stay.
+    /// With a light, two meshes and two casters that stay: one is cut by a mask.
     fn new(gpu: &'a Gpu, seed: u64, most: [usize; 3]) -> Result<Self, String> {
         let (stock, random) = (Stock::new(gpu)?, Random::new(seed));
         let mut bustle = Self { scene: ChangingScene::new(gpu)?, stock, random, tally: Tally::default(), most };
         bustle.scene.add_light(&point(DVec3::new(5.0, 6.0, 1.0), DVec3::ZERO, 4.0), "smoothies")?;
         let mesh = bustle.stock.meshes.last().cloned().ok_or("there are meshes")?;
-        let handle = bustle.add_mesh(&mesh)?;
-        bustle.add_caster(CasterInput {
-            mesh: handle,
-            world_from_object: DMat4::IDENTITY,
-            positions: Positions::OfMesh,
-        })?;
+        let masked = Arc::clone(&bustle.stock.masked[0]);
+        for mesh in [bustle.add_mesh(&mesh)?, bustle.add_masked_mesh(&masked)?] {
+            let (world_from_object, positions) = (DMat4::IDENTITY, Positions::OfMesh);
+            bustle.add_caster(CasterInput { mesh, world_from_object, positions })?;
+        }
         Ok(bustle)
     }
 
@@ -132,6 +153,12 @@ impl<'a> Bustle<'a> {
         self.tally.bytes += mesh_bytes(mesh);
         self.tally.add(room_of_mesh(mesh));
         self.scene.add_mesh(mesh)
+    }
+
+    fn add_masked_mesh(&mut self, mesh: &Arc<MaskedMesh>) -> Result<MeshHandle, String> {
+        self.tally.bytes += mesh_bytes(mesh.mesh()) + mask_bytes(mesh);
+        self.tally.add(room_of_mesh(mesh.mesh()));
+        self.scene.add_masked_mesh(mesh)
     }
 
     fn add_caster(&mut self, input: CasterInput) -> Outcome {
@@ -160,9 +187,9 @@ impl<'a> Bustle<'a> {
         self.scene.remove_mesh(index)
     }
 
-    /// One of those that may leave: the first one stays.
-    fn guest(&mut self, count: usize) -> Option<usize> {
-        (count > 1).then(|| 1 + self.random.below(count - 1))
+    /// One of those that may leave: the first ones stay.
+    fn guest(&mut self, count: usize, staying: usize) -> Option<usize> {
+        (count > staying).then(|| staying + self.random.below(count - staying))
     }
 
     fn light(&mut self) -> Light {
@@ -178,12 +205,16 @@ impl<'a> Bustle<'a> {
     fn step(&mut self) -> Outcome {
         let [most_meshes, most_casters, most_lights] = self.most;
         match self.random.below(16) {
-            0..=1 if self.scene.meshes.len() < most_meshes => {
+            0 if self.scene.meshes.len() < most_meshes => {
+                let masked = Arc::clone(&self.stock.masked[self.random.below(self.stock.masked.len())]);
+                self.add_masked_mesh(&masked).map(drop)
+            }
+            1 if self.scene.meshes.len() < most_meshes => {
                 let mesh = self.random.below(self.stock.meshes.len());
                 let mesh = Arc::clone(&self.stock.meshes[mesh]);
                 self.add_mesh(&mesh).map(drop)
             }
-            0..=2 => self.guest(self.scene.meshes.len()).map_or(Ok(()), |index| self.remove_mesh(index)),
+            0..=2 => self.guest(self.scene.meshes.len(), 2).map_or(Ok(()), |index| self.remove_mesh(index)),
             // A deforming mesh comes with a caster, and mostly goes with another one.
             3 if self.scene.meshes.len() < most_meshes => {
                 let mesh = self.random.below(self.stock.deforming.len());
@@ -196,7 +227,7 @@ impl<'a> Bustle<'a> {
                 let world_from_object = place(&mut self.random);
                 self.add_caster(CasterInput { mesh, world_from_object, positions: Positions::OfMesh })
             }
-            3..=9 => self.guest(self.scene.casters.len()).map_or(Ok(()), |index| self.remove_caster(index)),
+            3..=9 => self.guest(self.scene.casters.len(), 2).map_or(Ok(()), |index| self.remove_caster(index)),
             10..=13 => {
                 let (index, place) = (self.random.below(self.scene.casters.len()), place(&mut self.random));
                 self.scene.move_caster(index, place)
@@ -206,7 +237,7 @@ impl<'a> Bustle<'a> {
                 let light = self.light();
                 self.scene.add_light(&light, technique).map(drop)
             }
-            _ => self.guest(self.scene.lights.len()).map_or(Ok(()), |index| self.scene.remove_light(index)),
+            _ => self.guest(self.scene.lights.len(), 1).map_or(Ok(()), |index| self.scene.remove_light(index)),
         }
     }
 
@@ -259,7 +290,7 @@ fn thousands_leave_what_a_fresh_scene_leaves(gpu: &Gpu) -> Outcome {
 
 /// Where a scene fills now one page, now several.
 fn pages_leave_what_a_fresh_scene_leaves(_: &Gpu) -> Outcome {
-    let small = gpu_with_small_buffers(240 << 10)?;
+    let small = gpu_with_small_buffers(180 << 10)?;
     let mut bustle = Bustle::new(&small, 6, [6, 6, 2])?;
     bustle.stock.meshes.retain(|mesh| mesh.faces.len() < 1300);
     let mut page_counts = Vec::new();
