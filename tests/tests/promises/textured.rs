@@ -175,7 +175,7 @@ fn a_scene_can_replace_them() -> Outcome {
 /// What alpha cuts is not there: not in the picture, not in the view of visibility, and not among the receivers, where the
 /// wall behind is found.
 fn alpha_cuts_what_is_seen() -> Outcome {
-    let is_open = |x: u32, y: u32| (x + 2 * y) % 3 == 0;
+    let is_open = |x: u32, y: u32| (x + 2 * y).is_multiple_of(3);
     let texels = RgbaImage::from_fn(4, 4, |x, y| Rgba([200, 200, 200, if is_open(x, y) { 99 } else { 102 }]));
     let mut bytes = Cursor::new(Vec::new());
     DynamicImage::from(texels).write_to(&mut bytes, ImageFormat::Png).map_err(|error| error.to_string())?;
