@@ -46,7 +46,7 @@ fn classify_faces(
     let caster_count = arrayLength(&caster_lights) / LIGHTS;
     let list_size = arrayLength(&recheck_words) / LIGHTS;
     let all_faces = select(0u, 0xffffffffu >> (FACES_PER_WORD - face_count), face_count > 0u);
-    let may_use_planes = item.by_positions == 0u;
+    let may_use_planes = item.kind == BLOCK_BY_PLANES;
 "
     );
     let before = "
