@@ -68,41 +68,52 @@ impl Renderer {
     fn map_views(&self, light: Casting) -> Result<Vec<View>, ReadError> {
         let kind = self.lights.local(light.0).kind;
         let mut views = Vec::new();
-        for (layer, depths) in (0..).zip(self.depth_ranges(light)) {
-            let of_layer = self.maps_of_layer(light, layer, depths)?;
-            views.extend(of_layer.into_iter().map(|view| View { name: view.name + &suffix(&kind, layer), ..view }));
+        let depth_ranges = self.depth_ranges(light);
+        let count = depth_ranges.len() as u32;
+        for (index, depths) in (0..).zip(depth_ranges) {
+            let of_view = self.maps_of_view(light, (index, count), depths)?;
+            views.extend(of_view.into_iter().map(|view| View { name: view.name + &suffix(&kind, index), ..view }));
         }
         Ok(views)
     }
 
-    fn maps_of_layer(&self, light: Casting, layer: u32, depths: [f64; 2]) -> Result<Vec<View>, ReadError> {
+    fn maps_of_view(
+        &self,
+        light: Casting,
+        (index, count): (u32, u32),
+        depths: [f64; 2],
+    ) -> Result<Vec<View>, ReadError> {
         let maps = self.cast.shadows.maps(light.1);
         let mut views = Vec::new();
         let mut push =
             |name: &str, MapView { picture, legend }| views.push(View { name: String::from(name), picture, legend });
-        let texels = |map| read_texels(&self.gpu, map, layer);
+        let texels = |(map, layer)| read_texels(&self.gpu, map, layer);
         let channel =
             |texels: &[[f32; 2]], channel: usize| -> Vec<f32> { texels.iter().map(|texel| texel[channel]).collect() };
+        // A map that nobody keeps for each view is that of the last one.
+        let in_view = |map: &wgpu::Texture| (index + map.depth_or_array_layers()).checked_sub(count);
         let unit = self.depth_unit(light, depths);
         let linear = |depth: Vec<f32>| depth.into_iter().map(|depth| unit * depth).collect::<Vec<_>>();
         let depth_view = |depth: &[f32], size| depth_view(depth, size, depths[1] as f32, self.local.length_world(1.0));
         if let Some(map) = maps.shadow_depth {
-            push("shadow_map", depth_view(&linear(channel(&texels(map)?, 0)), map.width()));
-        } else if let Some(map) = maps.shadow_hardware_depth {
-            let depth = self.linear_from_hardware(light, depths, &channel(&texels(map)?, 0));
+            if let Some(layer) = in_view(map) {
+                push("shadow_map", depth_view(&linear(channel(&texels((map, layer))?, 0)), map.width()));
+            }
+        } else if let Some((map, layer)) = maps.shadow_hardware_depth.and_then(|map| Some((map, in_view(map)?))) {
+            let depth = self.linear_from_hardware(light, depths, &channel(&texels((map, layer))?, 0));
             push("shadow_map", depth_view(&depth, map.width()));
         }
         if let Some(map) = maps.smoothie_buffer {
-            let texels = texels(map)?;
+            let texels = texels((map, index))?;
             push("smoothie_depth", depth_view(&linear(channel(&texels, 0)), map.width()));
             push("smoothie_alpha", alpha_view(&channel(&texels, 1), map.width()));
         }
         if let Some(map) = maps.smoothie_depth {
-            let depth = self.linear_from_hardware(light, depths, &channel(&texels(map)?, 0));
+            let depth = self.linear_from_hardware(light, depths, &channel(&texels((map, index))?, 0));
             push("smoothie_depth", depth_view(&depth, map.width()));
         }
         if let Some(map) = maps.smoothie_alpha {
-            push("smoothie_alpha", alpha_view(&channel(&texels(map)?, 0), map.width()));
+            push("smoothie_alpha", alpha_view(&channel(&texels((map, index))?, 0), map.width()));
         }
         Ok(views)
     }

@@ -256,6 +256,14 @@ fn all_views_are_written() -> Outcome {
     let sun = scene("kind = \"directional\"\ntowards_light = [1, 2, 1]\ncascades = 3");
     let faces = ["positive-x", "negative-x", "positive-y", "negative-y", "positive-z", "negative-z"];
     let cascades = ["cascade-1", "cascade-2", "cascade-3"];
+    // Where nobody keeps a shadow map for each view, there is that of the last one.
+    let folder = Folder::with(&[("scene.toml", &lamp)]);
+    folder.run("render scene.toml --technique vsm --views maps -o picture.png").stdout()?;
+    let written: Vec<bool> =
+        faces.iter().map(|face| folder.path(&format!("maps/shadow_map-{face}.png")).exists()).collect();
+    if written != [false, false, false, false, false, true] {
+        return Err(format!("vsm: maps of {written:?}"));
+    }
     for (name, text, suffixes) in [("lamp", lamp, &faces[..]), ("sun", sun, &cascades[..])] {
         let folder = Folder::with(&[("scene.toml", &text)]);
         let told = folder.run("render scene.toml --views maps -o picture.png").stdout()?;
