@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use contrejour_gpu::{AddMeshError, MeshHandle, Shadows, mask_facts, masked_mesh_facts, mesh_facts};
 use contrejour_mesh::{
-    AlphaMask, BuildOptions, DeformingMesh, MaskImage, MaskImageError, MaskedMesh, MaskedMeshError, MaterialPart,
-    Texture, TopologyAwareMesh, TopologyError, TriangleMesh,
+    AlphaMask, BuildOptions, DeformingMesh, EncodedImage, MaskImage, MaskImageError, MaskedMesh, MaskedMeshError,
+    MaterialPart, Texture, TextureFilter, TextureWrap, TopologyAwareMesh, TopologyError, TriangleMesh,
 };
 use contrejour_plan::{MaskFacts, MeshFacts};
 use contrejour_scene::{TextureError, TextureReader};
@@ -16,8 +16,8 @@ use contrejour_scene::{TextureError, TextureReader};
 pub(crate) enum CasterMesh {
     /// With silhouettes.
     Uncut(Arc<TopologyAwareMesh>),
-    /// With holes.
-    Masked(Arc<MaskedMesh>),
+    /// With holes, from a vertex of the scene's mesh on.
+    Masked { mesh: Arc<MaskedMesh>, first_vertex: u32 },
 }
 
 /// A mesh that casts is none that can.
@@ -44,11 +44,14 @@ pub enum CasterMeshError {
     Texture(#[from] TextureError),
 }
 
+/// A picture, and how it is looked up.
+type ImageKey = (*const EncodedImage, [TextureWrap; 2], TextureFilter);
+
 /// Makes the casting meshes of a scene, and decodes each mask once.
 #[derive(Debug, Default)]
 pub(crate) struct CasterMeshes {
     reader: TextureReader,
-    images: HashMap<*const Texture, Arc<MaskImage>>,
+    images: HashMap<ImageKey, Arc<MaskImage>>,
 }
 
 impl CasterMesh {
@@ -56,7 +59,7 @@ impl CasterMesh {
     pub fn topology(&self) -> &TopologyAwareMesh {
         match self {
             Self::Uncut(topology) => topology,
-            Self::Masked(masked) => masked.mesh(),
+            Self::Masked { mesh, .. } => mesh.mesh(),
         }
     }
 
@@ -64,14 +67,14 @@ impl CasterMesh {
     pub fn facts(&self) -> MeshFacts {
         match self {
             Self::Uncut(topology) => mesh_facts(topology),
-            Self::Masked(masked) => masked_mesh_facts(masked),
+            Self::Masked { mesh, .. } => masked_mesh_facts(mesh),
         }
     }
 
     pub fn add_to(&self, shadows: &mut Shadows) -> Result<MeshHandle, AddMeshError> {
         match self {
             Self::Uncut(topology) => shadows.add_mesh(Arc::clone(topology)),
-            Self::Masked(masked) => shadows.add_masked_mesh(masked),
+            Self::Masked { mesh, .. } => shadows.add_masked_mesh(mesh),
         }
     }
 }
@@ -79,7 +82,7 @@ impl CasterMesh {
 /// What a frame plan needs to know of all masks.
 pub(crate) fn mask_facts_of(meshes: &[CasterMesh]) -> MaskFacts {
     mask_facts(meshes.iter().filter_map(|mesh| match mesh {
-        CasterMesh::Masked(masked) => Some(masked),
+        CasterMesh::Masked { mesh, .. } => Some(mesh),
         CasterMesh::Uncut(_) => None,
     }))
 }
@@ -108,15 +111,16 @@ impl CasterMeshes {
                 Some(texture) => self.image(texture)?.map_err(|source| mask_error(source.into()))?,
                 None => Arc::new(MaskImage::opaque()),
             };
-            let masked = masked_mesh(mesh, part, (image, cutoff), deforming.is_some()).map_err(mask_error)?;
-            made.push(CasterMesh::Masked(Arc::new(masked)));
+            let (masked, first_vertex) = masked_part(mesh, part, (image, cutoff)).map_err(mask_error)?;
+            made.push(CasterMesh::Masked { mesh: Arc::new(masked), first_vertex });
         }
         Ok(made)
     }
 
     /// The alpha of a picture.
     fn image(&mut self, texture: &Arc<Texture>) -> Result<Result<Arc<MaskImage>, MaskImageError>, TextureError> {
-        if let Some(known) = self.images.get(&Arc::as_ptr(texture)) {
+        let key = (Arc::as_ptr(&texture.image), texture.wrap, texture.filter);
+        if let Some(known) = self.images.get(&key) {
             return Ok(Ok(Arc::clone(known)));
         }
         let picture = self.reader.read(&texture.image)?;
@@ -124,36 +128,30 @@ impl CasterMeshes {
         let alphas = picture.pixels().map(|pixel| pixel.0[3]).collect();
         let image = MaskImage::new([width, height], alphas, texture.wrap, texture.filter).map(Arc::new);
         if let Ok(image) = &image {
-            self.images.insert(Arc::as_ptr(texture), Arc::clone(image));
+            self.images.insert(key, Arc::clone(image));
         }
         Ok(image)
     }
 }
 
-/// A part of a mesh with its mask: vertices that only other parts have are left out, but where positions come from elsewhere.
-fn masked_mesh(
+/// A part of a mesh with its mask, and the first of its vertices: all from that one to its last come along.
+fn masked_part(
     mesh: &TriangleMesh,
     part: &MaterialPart,
     (image, cutoff): (Arc<MaskImage>, f32),
-    keeps_vertices: bool,
-) -> Result<MaskedMesh, MaskedMeshError> {
+) -> Result<(MaskedMesh, u32), MaskedMeshError> {
     let triangles = &mesh.triangles[part.triangles.start as usize..part.triangles.end as usize];
-    let mut vertices: Vec<u32> =
-        if keeps_vertices { (0..mesh.positions.len() as u32).collect() } else { triangles.as_flattened().to_vec() };
-    vertices.sort_unstable();
-    vertices.dedup();
-    let place = |vertex: u32| vertices.partition_point(|&known| known < vertex) as u32;
-    let triangles: Vec<[u32; 3]> = triangles.iter().map(|corners| corners.map(place)).collect();
-    let of_vertices = |value: &dyn Fn(usize) -> [f32; 3]| -> Vec<[f32; 3]> {
-        vertices.iter().map(|&vertex| value(vertex as usize)).collect()
-    };
-    let coordinates = |vertex: &u32| mesh.texture_coordinates.get(*vertex as usize).copied().unwrap_or_default();
-    let alpha = |vertex: &u32| mesh.alphas.get(*vertex as usize).copied().unwrap_or(1.0);
+    let corners = || triangles.as_flattened().iter().copied();
+    let first = corners().min().unwrap_or_default();
+    let vertices = first as usize..corners().max().map_or(0, |last| last as usize + 1);
+    let triangles: Vec<[u32; 3]> = triangles.iter().map(|corners| corners.map(|vertex| vertex - first)).collect();
+    let coordinates = |vertex: usize| mesh.texture_coordinates.get(vertex).copied().unwrap_or_default();
+    let alpha = |vertex: usize| mesh.alphas.get(vertex).copied().unwrap_or(1.0);
     let mask = AlphaMask {
-        coordinates: vertices.iter().map(coordinates).collect(),
-        alphas: vertices.iter().map(alpha).collect(),
+        coordinates: vertices.clone().map(coordinates).collect(),
+        alphas: vertices.clone().map(alpha).collect(),
         image,
         cutoff,
     };
-    MaskedMesh::new(&of_vertices(&|vertex| mesh.positions[vertex]), &triangles, mask)
+    Ok((MaskedMesh::new(&mesh.positions[vertices], &triangles, mask)?, first))
 }

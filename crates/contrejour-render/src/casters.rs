@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use contrejour_gpu::{
     AddMeshError, CasterError, CasterHandle, CasterInput, CountersError, Deformer, LightHandle, NewShadowsError,
-    PrepareError, ShadowLightError, ShadowOptions, Shadows, ViewChoice, VisibilityKind,
+    Positions, PrepareError, ShadowLightError, ShadowOptions, Shadows, ViewChoice, VisibilityKind,
 };
 use contrejour_mesh::{DeformingMesh, MaskedMesh, TopologyAwareMesh, TriangleMesh};
 use contrejour_plan::{Eye, Light, LightKind, Outputs, ShadowSettings};
@@ -121,8 +121,9 @@ impl Casters {
                     }
                 };
                 let local_from_object = local.local_from_world() * placed.world_from_object;
+                let name = if placed.name.is_empty() { format!("mesh {scene_mesh}") } else { placed.name.clone() };
                 casters.placed.extend(meshes.map(|mesh| Caster {
-                    name: placed.name.clone(),
+                    name: name.clone(),
                     mesh,
                     local_from_object,
                     scene_mesh,
@@ -145,11 +146,21 @@ impl Casters {
         self.meshes[caster.mesh].topology()
     }
 
+    /// Where the positions of a caster are.
+    fn positions_of(&self, caster: &Caster) -> Positions {
+        match (self.positions(caster.scene_mesh), &self.meshes[caster.mesh]) {
+            (Positions::InBuffer { buffer, offset, stride }, CasterMesh::Masked { first_vertex, .. }) => {
+                Positions::InBuffer { buffer, offset: offset + stride * u64::from(*first_vertex), stride }
+            }
+            (positions, _) => positions,
+        }
+    }
+
     /// The masked parts that a mesh of the scene casts with, in its order.
     pub fn masked_parts(&self, scene_mesh: usize) -> impl Iterator<Item = &Arc<MaskedMesh>> {
         let placed = self.of_mesh.get(scene_mesh).map_or(&[][..], |casters| &self.placed[casters.clone()]);
         placed.iter().filter_map(|caster| match &self.meshes[caster.mesh] {
-            CasterMesh::Masked(masked) => Some(masked),
+            CasterMesh::Masked { mesh, .. } => Some(mesh),
             CasterMesh::Uncut(_) => None,
         })
     }
@@ -175,7 +186,7 @@ impl CastShadows {
             shadows.add_caster(&CasterInput {
                 mesh: meshes[caster.mesh],
                 world_from_object: caster.local_from_object,
-                positions: casters.positions(caster.scene_mesh),
+                positions: casters.positions_of(caster),
             })
         });
         let handles = handles.collect::<Result<_, _>>()?;

@@ -296,7 +296,12 @@ impl<'a> TextureList<'a> {
 
 /// The indices of all triangles, in order, and what each range is drawn with.
 fn drawn_parts<'a>(mesh: &'a TriangleMesh, textures: &mut TextureList<'a>) -> Vec<DrawnPart> {
-    let largest_alpha = mesh.alphas.iter().copied().fold(0.0, f32::max);
+    let largest_alpha = |part: &MaterialPart| {
+        let triangles = &mesh.triangles[part.triangles.start as usize..part.triangles.end as usize];
+        let alphas =
+            triangles.as_flattened().iter().map(|&vertex| mesh.alphas.get(vertex as usize).copied().unwrap_or(1.0));
+        alphas.fold(0.0, f32::max)
+    };
     let mut parts = Vec::new();
     let mut push = |triangles: Range<u32>, group, is_cut| {
         if !triangles.is_empty() {
@@ -306,7 +311,7 @@ fn drawn_parts<'a>(mesh: &'a TriangleMesh, textures: &mut TextureList<'a>) -> Ve
     let mut next = 0;
     for part in &mesh.parts {
         push(next..part.triangles.start, 0, false);
-        push(part.triangles.clone(), textures.group(part, largest_alpha), part.alpha_cutoff.is_some());
+        push(part.triangles.clone(), textures.group(part, largest_alpha(part)), part.alpha_cutoff.is_some());
         next = part.triangles.end;
     }
     push(next..mesh.triangles.len() as u32, 0, false);

@@ -19,7 +19,8 @@ pub(crate) struct SceneTextures {
     reader: TextureReader,
     /// By picture, and by the cutoff that its alpha is for.
     images: HashMap<(*const EncodedImage, Option<u32>), wgpu::TextureView>,
-    samplers: HashMap<([TextureWrap; 2], TextureFilter), wgpu::Sampler>,
+    /// And whether alpha cuts what they look up.
+    samplers: HashMap<([TextureWrap; 2], TextureFilter, bool), wgpu::Sampler>,
     /// What stands where a surface has no texture: white.
     pub white: (wgpu::TextureView, wgpu::Sampler),
 }
@@ -52,7 +53,8 @@ impl SceneTextures {
                 view
             }
         };
-        let sampler = self.samplers.entry((texture.wrap, texture.filter)).or_insert_with(|| sampler(gpu, texture));
+        let sampler = self.samplers.entry((texture.wrap, texture.filter, cutoff.is_some()));
+        let sampler = sampler.or_insert_with(|| new_sampler(gpu, texture, cutoff.is_some()));
         Ok((view, sampler.clone()))
     }
 }
@@ -69,15 +71,14 @@ fn upload(gpu: &Gpu, picture: RgbaImage, cutoff: Option<f32>) -> wgpu::TextureVi
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    let share = cutoff.map(|cutoff| alpha_level(&picture).share_kept(cutoff));
+    // Where alpha cuts, smaller levels have that of the mask which casts.
+    let mut alphas = cutoff.map(|cutoff| alpha_level(&picture).with_smaller(cutoff)).unwrap_or_default().into_iter();
     let mut next = Some(picture);
     for level in 0..texture.mip_level_count() {
         let Some(mut texels) = next else { break };
         let smaller = next_level(&texels);
-        if let Some((cutoff, share)) = cutoff.zip(share).filter(|_| level > 0) {
-            let mut alpha = alpha_level(&texels);
-            alpha.keep_coverage(cutoff, share);
-            texels.pixels_mut().zip(alpha.alphas).for_each(|(texel, alpha)| texel.0[3] = alpha);
+        if let Some(level) = alphas.next() {
+            texels.pixels_mut().zip(level.alphas).for_each(|(texel, alpha)| texel.0[3] = alpha);
         }
         let (width, height) = texels.dimensions();
         let target = wgpu::TexelCopyTextureInfo { mip_level: level, ..texture.as_image_copy() };
@@ -95,7 +96,7 @@ fn alpha_level(picture: &RgbaImage) -> MaskLevel {
     MaskLevel { size: [width, height], alphas: picture.pixels().map(|texel| texel.0[3]).collect() }
 }
 
-fn sampler(gpu: &Gpu, texture: &Texture) -> wgpu::Sampler {
+fn new_sampler(gpu: &Gpu, texture: &Texture, cuts: bool) -> wgpu::Sampler {
     let [across, down] = texture.wrap.map(|wrap| match wrap {
         TextureWrap::Repeat => wgpu::AddressMode::Repeat,
         TextureWrap::Mirror => wgpu::AddressMode::MirrorRepeat,
@@ -111,7 +112,8 @@ fn sampler(gpu: &Gpu, texture: &Texture) -> wgpu::Sampler {
         address_mode_v: down,
         mag_filter: magnified,
         min_filter: wgpu::FilterMode::Linear,
-        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        // The mean of two levels has another coverage than either.
+        mipmap_filter: if cuts { wgpu::MipmapFilterMode::Nearest } else { wgpu::MipmapFilterMode::Linear },
         // Not anisotropic: lavapipe then has black texels beside the edges of triangles.
         ..Default::default()
     })

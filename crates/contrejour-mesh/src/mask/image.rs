@@ -1,6 +1,6 @@
 //! The picture of a mask: alpha alone.
 
-use super::levels::{MaskLevel, halved};
+use super::levels::MaskLevel;
 use crate::{TextureFilter, TextureWrap};
 
 /// Alpha of a picture, and how it is looked up.
@@ -86,29 +86,9 @@ impl MaskImage {
         }
     }
 
-    /// The picture and its smaller levels. Each texel is the mean of those below it, and a level's alphas are scaled so that
-    /// `cutoff` leaves as large a share of its area as of the first level's: means alone would let leaves vanish with
-    /// distance (Castaño 2010, "Computing Alpha Mipmaps").
+    /// The picture and its smaller levels, of which a cutoff leaves as large a share as of itself.
     pub(super) fn levels(&self, cutoff: f32) -> Vec<MaskLevel> {
-        let first = MaskLevel { size: self.size, alphas: self.alphas.clone() };
-        let share = first.share_kept(cutoff);
-        let mut levels = vec![first];
-        let mut means: Vec<f32> = self.alphas.iter().map(|alpha| f32::from(*alpha)).collect();
-        let mut size = self.size;
-        while size != [1, 1] {
-            let [columns, rows] = size.map(halved);
-            let mean = |row: &[(u32, f32)], column: &[(u32, f32)]| {
-                let texels = row.iter().flat_map(|down| column.iter().map(move |across| (down, across)));
-                texels.map(|((y, high), (x, wide))| high * wide * means[(y * size[0] + x) as usize]).sum::<f32>()
-            };
-            let next: Vec<f32> = rows.iter().flat_map(|row| columns.iter().map(|column| mean(row, column))).collect();
-            size = [columns.len() as u32, rows.len() as u32];
-            let mut level = MaskLevel { size, alphas: next.iter().map(|mean| mean.round() as u8).collect() };
-            level.keep_coverage(cutoff, share);
-            levels.push(level);
-            means = next;
-        }
-        levels
+        MaskLevel { size: self.size, alphas: self.alphas.clone() }.with_smaller(cutoff)
     }
 
     /// Alpha at a point of the first level, from 0 to 1.

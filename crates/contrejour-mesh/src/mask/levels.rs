@@ -11,50 +11,111 @@ pub struct MaskLevel {
     pub alphas: Vec<u8>,
 }
 
+/// How far from what was asked for a level's share may be, where its alphas are means.
+const MEANS_OFF_BY: f64 = 0.05;
+
 impl MaskLevel {
+    /// This picture and its smaller levels, down to 1 texel. Of each level a cutoff leaves as large a share of the area as of
+    /// the first.
+    ///
+    /// Alphas are means that are scaled until it does (Castaño 2010, "Computing Alpha Mipmaps"): means alone would let leaves
+    /// vanish with distance. Where no scale does it, as where the means of a lattice are all alike, each texel has the alpha
+    /// of one that it covers, whichever chance takes; the choice is the same in every run.
+    pub fn with_smaller(self, cutoff: f32) -> Vec<Self> {
+        let share = self.share_kept(cutoff);
+        let mut means: Vec<f32> = self.alphas.iter().map(|alpha| f32::from(*alpha)).collect();
+        let mut size = self.size;
+        let mut levels = vec![self];
+        while size != [1, 1] {
+            let [columns, rows] = size.map(halved);
+            let mean = |row: &[(u32, f32)], column: &[(u32, f32)]| {
+                let mut sum = 0.0;
+                for &(y, high) in row {
+                    for &(x, wide) in column {
+                        sum += high * wide * means[(y * size[0] + x) as usize];
+                    }
+                }
+                sum
+            };
+            let row_of = |row: &Vec<(u32, f32)>| columns.iter().map(|column| mean(row, column)).collect::<Vec<_>>();
+            means = rows.par_iter().flat_map_iter(row_of).collect();
+            size = [columns.len() as u32, rows.len() as u32];
+            let mut level = Self { size, alphas: means.iter().map(|mean| mean.round() as u8).collect() };
+            level.keep_coverage(cutoff, share);
+            if (level.share_kept(cutoff) - share).abs() > MEANS_OFF_BY {
+                level.alphas = levels[0].chosen_by_chance(size);
+                level.keep_coverage(cutoff, share);
+            }
+            levels.push(level);
+        }
+        levels
+    }
+
     /// The share of its area that a cutoff leaves where texels are interpolated: four points a texel are asked.
     pub fn share_kept(&self, cutoff: f32) -> f64 {
         self.share_kept_of(cutoff, |alpha| alpha)
     }
 
     /// Scales its alphas so that a cutoff leaves as near this share of its area as it can.
-    pub fn keep_coverage(&mut self, cutoff: f32, share: f64) {
+    fn keep_coverage(&mut self, cutoff: f32, share: f64) {
         let off_by = |exponent: f32| self.share_kept_of(cutoff, |alpha| scaled(alpha, exponent)) - share;
+        let mut best = (0.0, off_by(0.0));
         // More is left by a larger scale.
         let (mut low, mut high) = (-8.0, 8.0);
         for _ in 0..12 {
             let middle = 0.5 * (low + high);
-            if off_by(middle) < 0.0 {
+            let off = off_by(middle);
+            if off < 0.0 {
                 low = middle;
             } else {
                 high = middle;
             }
+            if off.abs() < best.1.abs() {
+                best = (middle, off);
+            }
         }
-        // Where all of it or nothing is left by any scale, its own does.
-        let best = [0.0, low, high].into_iter().min_by(|a, b| off_by(*a).abs().total_cmp(&off_by(*b).abs()));
-        let exponent = best.unwrap_or_default();
-        self.alphas.iter_mut().for_each(|alpha| *alpha = scaled(*alpha, exponent));
+        self.alphas.iter_mut().for_each(|alpha| *alpha = scaled(*alpha, best.0));
     }
 
     fn share_kept_of(&self, cutoff: f32, change: impl Fn(u8) -> u8) -> f64 {
         let changed: Vec<u32> = (0..=255).map(|alpha| change(alpha).into()).collect();
         // A point a quarter of a texel off its middle has 9, 3, 3 and 1 sixteenths of the four texels about it.
-        let least = f64::from(cutoff) * 255.0 * 16.0;
+        let least = (f64::from(cutoff) * 255.0 * 16.0).ceil().clamp(0.0, f64::from(u32::MAX)) as u32;
         let [width, height] = self.size.map(|side| side as usize);
-        let texel = |x: usize, y: usize| changed[usize::from(self.alphas[y * width + x])];
+        let row = |y: usize| &self.alphas[y * width..(y + 1) * width];
         let kept_in_row = |y: usize| {
-            let rows = [y.saturating_sub(1), (y + 1).min(height - 1)];
-            let kept_at = |x: usize| {
-                let columns = [x.saturating_sub(1), (x + 1).min(width - 1)];
-                let own = 9 * texel(x, y);
-                let points = rows.into_iter().flat_map(|row| columns.map(|column| (row, column)));
-                let alphas =
-                    points.map(|(row, column)| own + 3 * (texel(column, y) + texel(x, row)) + texel(column, row));
-                alphas.filter(|alpha| f64::from(*alpha) >= least).count()
-            };
-            (0..width).map(kept_at).sum::<usize>()
+            let (above, own, below) = (row(y.saturating_sub(1)), row(y), row((y + 1).min(height - 1)));
+            let mut kept = 0;
+            for x in 0..width {
+                let [left, right] = [x.saturating_sub(1), (x + 1).min(width - 1)];
+                let at = |row: &[u8], x: usize| changed[usize::from(row[x])];
+                let middle = 9 * at(own, x);
+                for beside in [above, below] {
+                    let vertical = middle + 3 * at(beside, x);
+                    kept += u64::from(vertical + 3 * at(own, left) + at(beside, left) >= least);
+                    kept += u64::from(vertical + 3 * at(own, right) + at(beside, right) >= least);
+                }
+            }
+            kept
         };
-        (0..height).into_par_iter().map(kept_in_row).sum::<usize>() as f64 / (4 * width * height) as f64
+        (0..height).into_par_iter().map(kept_in_row).sum::<u64>() as f64 / (4 * width * height) as f64
+    }
+
+    /// For each texel of a smaller level, the alpha of one that it covers.
+    fn chosen_by_chance(&self, size: [u32; 2]) -> Vec<u8> {
+        let texel = |index: u32| {
+            let place = [index % size[0], index / size[0]];
+            let mut chance = (index ^ (size[0] << 16)).wrapping_mul(0x9e37_79b9);
+            let chosen = [0, 1].map(|axis| {
+                chance = (chance ^ (chance >> 15)).wrapping_mul(0x85eb_ca6b);
+                chance ^= chance >> 13;
+                let [side, of_level] = [self.size[axis], size[axis]].map(u64::from);
+                let [start, end] = [0, 1].map(|step| (u64::from(place[axis]) + step) * side / of_level);
+                start + u64::from(chance) % (end - start).max(1)
+            });
+            self.alphas[(chosen[1] * u64::from(self.size[0]) + chosen[0]) as usize]
+        };
+        (0..size[0] * size[1]).map(texel).collect()
     }
 }
 
@@ -103,6 +164,32 @@ mod tests {
             let mut level = ramp();
             level.keep_coverage(cutoff, share);
             assert_eq!(level, ramp(), "{cutoff}");
+        }
+    }
+
+    #[test]
+    fn levels_of_lattices_and_of_odd_sizes_keep_what_the_first_leaves() {
+        let picture = |size: [u32; 2], is_there: &dyn Fn(u32, u32) -> bool| {
+            let alphas =
+                (0..size[0] * size[1]).map(|texel| if is_there(texel % size[0], texel / size[0]) { 255 } else { 0 });
+            MaskLevel { size, alphas: alphas.collect() }
+        };
+        let lattices = [
+            ("fence", picture([64, 64], &|x, _| x % 4 == 0)),
+            ("fine fence", picture([128, 64], &|x, _| x % 2 == 0)),
+            ("chequers", picture([64, 64], &|x, y| (x + y) % 2 == 0)),
+            ("leaf", picture([97, 61], &|x, y| (x / 7 + y / 5) % 3 == 0)),
+        ];
+        for (name, first) in lattices {
+            let share = first.share_kept(0.5);
+            assert!((0.1..0.7).contains(&share), "{name}: {share}");
+            for level in first.with_smaller(0.5) {
+                // A handful of texels has no other choice.
+                if level.alphas.len() >= 64 {
+                    let found = level.share_kept(0.5);
+                    assert!((found - share).abs() < 0.12, "{name}, {:?}: {found}, not {share}", level.size);
+                }
+            }
         }
     }
 

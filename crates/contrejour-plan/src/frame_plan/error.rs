@@ -31,8 +31,9 @@ pub enum PlanError {
     /// A buffer is larger than the device allows.
     #[error(
         "buffer {} needs {needed} bytes and the device's {limit_name} is {limit}: request the device with a larger \
-         {limit_name}, or give casters with fewer faces",
-        buffer.name()
+         {limit_name}, or give casters with {}",
+        buffer.name(),
+        less(*buffer)
     )]
     BufferTooLarge {
         /// Which buffer.
@@ -52,4 +53,9 @@ pub enum PlanError {
         /// Records that are needed.
         needed: u64,
     },
+}
+
+/// What a smaller buffer asks of casters.
+fn less(buffer: BufferKind) -> &'static str {
+    if buffer == BufferKind::MaskWords { "smaller pictures in their masks" } else { "fewer faces" }
 }
