@@ -125,7 +125,7 @@ fn report(mesh: &TriangleMesh) -> Result<MeshReport, Failure> {
     Ok(MeshReport {
         name: mesh.name.clone(),
         unlisted_vertices: mesh.unlisted_vertices,
-        masked_triangles: mesh.cut_parts().map(|(part, _)| part.triangles.len() as u64).sum(),
+        masked_triangles: mesh.cut_triangle_count() as u64,
         report: topology.report,
     })
 }

@@ -54,6 +54,25 @@ impl TriangleMesh {
         Cow::Owned(uncut)
     }
 
+    /// The triangles of a part.
+    ///
+    /// # Panics
+    ///
+    /// When the mesh has no such triangles.
+    pub fn triangles_of(&self, part: &MaterialPart) -> &[[u32; 3]] {
+        &self.triangles[part.triangles.start as usize..part.triangles.end as usize]
+    }
+
+    /// Alpha of a vertex; 1 where the mesh has none.
+    pub fn alpha(&self, vertex: u32) -> f32 {
+        self.alphas.get(vertex as usize).copied().unwrap_or(1.0)
+    }
+
+    /// How many triangles alpha cuts.
+    pub fn cut_triangle_count(&self) -> usize {
+        self.cut_parts().map(|(part, _)| part.triangles.len()).sum()
+    }
+
     /// The parts that alpha cuts, each with its cutoff.
     pub fn cut_parts(&self) -> impl Iterator<Item = (&MaterialPart, f32)> {
         self.parts.iter().filter_map(|part| Some((part, part.alpha_cutoff?)))

@@ -140,16 +140,15 @@ fn masked_part(
     part: &MaterialPart,
     (image, cutoff): (Arc<MaskImage>, f32),
 ) -> Result<(MaskedMesh, u32), MaskedMeshError> {
-    let triangles = &mesh.triangles[part.triangles.start as usize..part.triangles.end as usize];
+    let triangles = mesh.triangles_of(part);
     let corners = || triangles.as_flattened().iter().copied();
     let first = corners().min().unwrap_or_default();
     let vertices = first as usize..corners().max().map_or(0, |last| last as usize + 1);
     let triangles: Vec<[u32; 3]> = triangles.iter().map(|corners| corners.map(|vertex| vertex - first)).collect();
     let coordinates = |vertex: usize| mesh.texture_coordinates.get(vertex).copied().unwrap_or_default();
-    let alpha = |vertex: usize| mesh.alphas.get(vertex).copied().unwrap_or(1.0);
     let mask = AlphaMask {
         coordinates: vertices.clone().map(coordinates).collect(),
-        alphas: vertices.clone().map(alpha).collect(),
+        alphas: vertices.clone().map(|vertex| mesh.alpha(vertex as u32)).collect(),
         image,
         cutoff,
     };

@@ -297,10 +297,8 @@ impl<'a> TextureList<'a> {
 /// The indices of all triangles, in order, and what each range is drawn with.
 fn drawn_parts<'a>(mesh: &'a TriangleMesh, textures: &mut TextureList<'a>) -> Vec<DrawnPart> {
     let largest_alpha = |part: &MaterialPart| {
-        let triangles = &mesh.triangles[part.triangles.start as usize..part.triangles.end as usize];
-        let alphas =
-            triangles.as_flattened().iter().map(|&vertex| mesh.alphas.get(vertex as usize).copied().unwrap_or(1.0));
-        alphas.fold(0.0, f32::max)
+        let corners = mesh.triangles_of(part).as_flattened().iter();
+        corners.map(|&vertex| mesh.alpha(vertex)).fold(0.0, f32::max)
     };
     let mut parts = Vec::new();
     let mut push = |triangles: Range<u32>, group, is_cut| {
@@ -322,9 +320,8 @@ fn attributes(normals: &[[f32; 3]], mesh: &TriangleMesh) -> Vec<VertexAttributes
     let coordinates = mesh.texture_coordinates.iter().copied().chain(std::iter::repeat([0.0; 2]));
     let mut alphas = vec![1.0; mesh.colors.len()];
     for (part, cutoff) in mesh.cut_parts() {
-        for &vertex in mesh.triangles[part.triangles.start as usize..part.triangles.end as usize].as_flattened() {
-            let vertex = vertex as usize;
-            alphas[vertex] = mesh.alphas.get(vertex).copied().unwrap_or(1.0) / cutoff;
+        for &vertex in mesh.triangles_of(part).as_flattened() {
+            alphas[vertex as usize] = mesh.alpha(vertex) / cutoff;
         }
     }
     let attributes = normals.iter().zip(&mesh.colors).zip(alphas).zip(coordinates);

@@ -10,7 +10,7 @@ mod svg;
 
 use std::sync::Arc;
 
-use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh, TriangleMesh};
+use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh};
 use contrejour_plan::{Light, LightKind};
 use glam::{DVec3, DVec4, Vec3};
 
@@ -77,8 +77,7 @@ fn homogeneous(light: &Light) -> DVec4 {
 }
 
 fn warn_of_masks(file: &MeshFile) {
-    let cut = |mesh: &TriangleMesh| mesh.cut_parts().map(|(part, _)| part.triangles.len()).sum::<usize>();
-    let count: usize = file.nodes.iter().map(|node| cut(&file.meshes[node.mesh])).sum();
+    let count: usize = file.nodes.iter().map(|node| file.meshes[node.mesh].cut_triangle_count()).sum();
     if count > 0 {
         warn(&format!("{count} triangles are cut by alpha masks, so they have no silhouette"));
     }
