@@ -7,6 +7,7 @@ use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 use super::PartPose;
+use super::bounds::PoseBounds;
 use crate::{BuildOptions, Motion, TopologyAwareMesh, TopologyError};
 
 /// The vertices of a mesh before anything moves them, and the joints and morph targets that do.
@@ -20,6 +21,7 @@ pub struct DeformingMesh {
     morph_deltas: Vec<MorphDelta>,
     joint_count: u32,
     morph_count: u32,
+    bounds: PoseBounds,
 }
 
 /// Why a vertex is refused.
@@ -84,6 +86,7 @@ impl DeformingMesh {
             morph_delta_count: index(morph_deltas.len())?,
             unused_0: 0,
         };
+        self.bounds.add(vertex.position, &influences, &morph_deltas);
         self.vertices.push(vertex);
         self.influences.extend(influences);
         self.morph_deltas.extend(morph_deltas);
@@ -131,6 +134,17 @@ impl DeformingMesh {
     /// When the pose is of another mesh: it has too few joints or weights.
     pub fn posed(&self, pose: &PartPose) -> Vec<DVec3> {
         self.vertices.par_iter().map(|vertex| self.posed_vertex(vertex, pose)).collect()
+    }
+
+    /// A box of the positions in a pose, as a device's 32-bit floats leave them: its smallest and its largest corner, in object
+    /// space. It costs as much as the mesh has joints and morph targets, whatever its number of vertices, and is larger
+    /// than the smallest one: it holds what each joint alone would make of all that it moves.
+    ///
+    /// # Panics
+    ///
+    /// When the pose is of another mesh: there are too few matrices or weights.
+    pub fn posed_bounds(&self, joint_matrices: &[DMat4], morph_weights: &[f64]) -> [[f32; 3]; 2] {
+        self.bounds.posed(joint_matrices, morph_weights)
     }
 
     fn posed_vertex(&self, vertex: &RestVertex, pose: &PartPose) -> DVec3 {

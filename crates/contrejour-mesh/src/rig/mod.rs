@@ -2,6 +2,7 @@
 
 #[cfg_attr(not(feature = "gltf"), expect(dead_code, reason = "the loader of glTF makes animations"))]
 mod animation;
+mod bounds;
 mod deforming;
 mod pose;
 #[cfg_attr(not(feature = "gltf"), expect(dead_code, reason = "the loader of glTF makes animations"))]
