@@ -11,7 +11,7 @@ use glam::DMat4;
 
 use crate::compare::{compare_exact, compare_records};
 use crate::gpu::Gpu;
-use crate::texture::read_layers;
+use crate::texture::read_maps;
 
 /// One object, and what is in it in the order in which it came.
 #[derive(Debug)]
@@ -225,13 +225,7 @@ impl<'a> ChangingScene<'a> {
             self.casters.iter().zip(0..).map(|(caster, at)| (caster.handle.index(), at)).collect();
         let mut left = Left::default();
         for (handle, ..) in &self.lights {
-            let plan = self.shadows.plan(*handle).ok_or("the light was prepared")?;
-            let maps = self.shadows.maps(*handle);
-            let mut bytes = Vec::new();
-            for kind in plan.visibility.ok_or("the light has maps")?.textures() {
-                bytes.extend(read_layers(self.gpu, maps.of(*kind).ok_or("a listed map is there")?));
-            }
-            left.maps.push(bytes);
+            left.maps.push(read_maps(self.gpu, &self.shadows, *handle)?);
             for (_, edges) in silhouettes.iter().filter(|(light, _)| light == handle) {
                 let named = |edge: &SilhouetteEdge| {
                     let caster = *by_slot.get(&(edge.caster as usize)).ok_or("a silhouette is nobody's")?;

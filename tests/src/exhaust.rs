@@ -175,7 +175,7 @@ impl<'a> Exhaust<'a> {
         let words = mesh.faces.len().div_ceil(BLOCK_SIZE as usize) * LIT_WORDS_PER_BLOCK as usize;
         let handle = self.shadows.add_mesh(Arc::clone(mesh)).map_err(|error| error.to_string())?;
         let positions = own_positions.map_or(Positions::OfMesh, |OwnPositions { buffer, offset, stride, .. }| {
-            Positions::InBuffer { buffer, offset, stride }
+            Positions::InBuffer { buffer, offset, stride, known: None }
         });
         let caster = CasterInput { mesh: handle, world_from_object: DMat4::IDENTITY, positions };
         self.casters.push(ExactCaster {

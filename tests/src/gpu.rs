@@ -4,6 +4,7 @@ use std::env;
 use std::fmt::Display;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
+use contrejour_gpu::{Shadows, Untimed};
 use wgpu::util::DeviceExt;
 
 /// Set to 1, a missing adapter fails the tests that need one. Otherwise they are reported as ignored.
@@ -224,4 +225,35 @@ mod tests {
         let refused = check_adapter("llvmpipe (LLVM 15.0.6, 256 bits)", Some("SwiftShader"));
         assert!(refused.is_err_and(|text| text.contains("no SwiftShader but llvmpipe")));
     }
+}
+
+/// Frames until all lists must have had room.
+const MAX_FRAMES: usize = 5;
+
+/// Draws until all lists had room; `before` records what goes before the shadows of each frame. Returns how many lights the
+/// first frame made.
+///
+/// # Errors
+///
+/// What the library refuses, or lists that never have room.
+pub fn draw_whole(
+    gpu: &Gpu,
+    shadows: &mut Shadows,
+    mut before: impl FnMut(&mut wgpu::CommandEncoder),
+) -> Result<u32, String> {
+    let _waiting = gpu.waiting();
+    let mut redone = None;
+    for _ in 0..MAX_FRAMES {
+        shadows.prepare(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;
+        redone.get_or_insert(shadows.stats().lights_redone);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        before(&mut encoder);
+        shadows.encode(&mut encoder, &mut Untimed);
+        gpu.queue.submit([encoder.finish()]);
+        shadows.wait_for_counters(&gpu.device).map_err(|error| error.to_string())?;
+        if shadows.is_complete() {
+            return redone.ok_or_else(|| "no frame was drawn".into());
+        }
+    }
+    Err("lists never had room".into())
 }

@@ -1,5 +1,7 @@
 //! Texels of a map on the CPU.
 
+use contrejour_gpu::{LightHandle, Shadows};
+
 use crate::gpu::Gpu;
 
 /// All channels of a texture of 32-bit floats, row by row, layer after layer.
@@ -22,6 +24,21 @@ pub fn read_half_floats(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<f32> {
 pub fn read_layers(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
     let has_depth = texture.format().has_depth_aspect();
     read_bytes(gpu, texture, if has_depth { wgpu::TextureAspect::DepthOnly } else { wgpu::TextureAspect::All })
+}
+
+/// All texels of all maps of a light that receivers look up.
+///
+/// # Errors
+///
+/// The light was not prepared, or has no maps.
+pub fn read_maps(gpu: &Gpu, shadows: &Shadows, light: LightHandle) -> Result<Vec<u8>, String> {
+    let plan = shadows.plan(light).ok_or("the light was prepared")?;
+    let maps = shadows.maps(light);
+    let mut bytes = Vec::new();
+    for kind in plan.visibility.ok_or("the light has maps")?.textures() {
+        bytes.extend(read_layers(gpu, maps.of(*kind).ok_or("a listed map is there")?));
+    }
+    if bytes.is_empty() { Err("the light has no texel".into()) } else { Ok(bytes) }
 }
 
 fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, aspect: wgpu::TextureAspect) -> Vec<u8> {

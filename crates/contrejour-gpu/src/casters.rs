@@ -31,8 +31,7 @@ pub enum Positions {
     #[default]
     OfMesh,
     /// A buffer of the caller's, as another stage of the same encoder left it: one position for each source vertex of
-    /// the mesh, in the same order. The mesh must be built for [deforming](contrejour_mesh::Motion::Deforming). Nobody
-    /// knows when they change: each light makes its maps anew in each frame while there is such a caster.
+    /// the mesh, in the same order. The mesh must be built for [deforming](contrejour_mesh::Motion::Deforming).
     InBuffer {
         /// The buffer; needs `COPY_SRC`, since a copy on the device puts the positions beside the pooled ones.
         buffer: wgpu::Buffer,
@@ -40,7 +39,21 @@ pub enum Positions {
         offset: u64,
         /// From one position to the next, in bytes; a multiple of 4, at least 12.
         stride: u64,
+        /// Which positions they are and where; `None` where nobody knows. Then they may be others in each frame, so each light
+        /// that casts makes its maps anew in each frame, and they are worked on for each view.
+        known: Option<KnownPositions>,
     },
+}
+
+/// What is known of the positions in a buffer, as [`Deformer::positions`](crate::Deformer::positions) gives it or a caller
+/// with a stage of its own knows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnownPositions {
+    /// Another number whenever some of them are others than before. While it stays, lights keep their maps.
+    pub version: u64,
+    /// A box that holds them: its smallest and its largest corner, in object space. Views that can't see it leave the caster
+    /// out, and lights that can't keep their maps.
+    pub bounds: [[f32; 3]; 2],
 }
 
 /// Names a caster.
@@ -61,6 +74,7 @@ pub(crate) struct PlacedCaster {
     pub mesh: MeshHandle,
     /// Where positions are the caller's.
     pub live: Option<LivePositions>,
+    world_from_object: DMat4,
     place: CasterPlace,
     /// Box and matrix; `None` where nobody knows them.
     bounds: Option<ObjectBox>,
@@ -105,6 +119,7 @@ impl Casters {
         let mut caster = PlacedCaster {
             mesh: input.mesh,
             live: live_positions(input, mesh)?,
+            world_from_object: input.world_from_object,
             place: CasterPlace::default(),
             bounds: None,
             has_faces: !mesh.topology.faces.is_empty(),
@@ -112,7 +127,7 @@ impl Casters {
             blocks: BlockPlaces::default(),
             is_new: true,
         };
-        caster.stand(&input.world_from_object, mesh);
+        caster.stand(mesh);
         caster.take_places(meshes, [&mut self.face_blocks, &mut self.edge_blocks]);
         self.touched.push(caster.bounds);
         self.has_changed = true;
@@ -133,10 +148,36 @@ impl Casters {
         let caster = self.slots.get_mut(handle.0).ok_or(CasterError::UnknownCaster { caster: handle })?;
         let Some(mesh) = meshes.get(caster.mesh) else { return Err(CasterError::UnknownMesh { mesh: caster.mesh }) };
         let before = (caster.place, caster.bounds);
-        caster.stand(world_from_object, mesh);
+        caster.world_from_object = *world_from_object;
+        caster.stand(mesh);
         if caster.place != before.0 {
             self.touched.extend([before.1, caster.bounds]);
             self.moved.push(handle.0.slot);
+        }
+        Ok(())
+    }
+
+    /// Takes over what is known of a caster's own positions.
+    ///
+    /// # Errors
+    ///
+    /// The caster is not one of these or has the positions of its mesh, or the box is none.
+    pub fn note_positions(
+        &mut self,
+        handle: CasterHandle,
+        known: &KnownPositions,
+        meshes: &MeshPool,
+    ) -> Result<(), CasterError> {
+        let caster = self.slots.get_mut(handle.0).ok_or(CasterError::UnknownCaster { caster: handle })?;
+        let Some(mesh) = meshes.get(caster.mesh) else { return Err(CasterError::UnknownMesh { mesh: caster.mesh }) };
+        let live = caster.live.as_mut().ok_or(CasterError::PositionsOfMesh { caster: handle })?;
+        if live.take_over(known)? {
+            let before = (caster.place, caster.bounds);
+            caster.stand(mesh);
+            self.touched.extend([before.1, caster.bounds]);
+            if caster.place != before.0 {
+                self.moved.push(handle.0.slot);
+            }
         }
         Ok(())
     }
@@ -217,9 +258,9 @@ impl Casters {
         self.slots.iter().filter(|(_, caster)| caster.has_faces && caster.place.casts == CASTER_NEVER).count() as u32
     }
 
-    /// Whether some positions may be others in each frame.
-    pub fn have_live_positions(&self) -> bool {
-        self.slots.iter().any(|(_, caster)| caster.live.is_some())
+    /// Whether some positions may be others in each frame, and nobody knows.
+    pub fn have_unknown_positions(&self) -> bool {
+        self.slots.iter().any(|(_, caster)| caster.live.as_ref().is_some_and(LivePositions::are_unknown))
     }
 
     /// Boxes that something was in or is in since they were last taken; `None` is everywhere.
@@ -260,13 +301,16 @@ impl PlacedCaster {
         self.blocks.edges = take(edge_blocks, block_count(mesh.topology.candidate_edge_count));
     }
 
-    fn stand(&mut self, world_from_object: &DMat4, mesh: &PooledMesh) {
-        let (min, max) = (mesh.topology.bounds_min, mesh.topology.bounds_max);
-        // Where positions are the caller's, the CPU does not know where they are.
-        let is_known = self.live.is_none();
-        self.bounds = is_known.then_some(ObjectBox { min, max, world_from_object: *world_from_object });
+    /// Makes its record and its box.
+    fn stand(&mut self, mesh: &PooledMesh) {
+        let world_from_object = self.world_from_object;
+        let bounds = match &self.live {
+            Some(live) => live.bounds(),
+            None => Some([mesh.topology.bounds_min, mesh.topology.bounds_max]),
+        };
+        self.bounds = bounds.map(|[min, max]| ObjectBox { min, max, world_from_object });
         self.place = if self.has_faces {
-            caster_place(world_from_object, &mesh.near_one, is_known.then_some([min, max]))
+            caster_place(&world_from_object, &mesh.near_one, bounds)
         } else {
             CasterPlace { casts: CASTER_NEVER, ..CasterPlace::default() }
         };

@@ -155,6 +155,23 @@ pub enum CasterError {
         /// From one position to the next, in bytes.
         stride: u64,
     },
+    /// A box of positions that is none.
+    #[error(
+        "the box of the caster's positions goes from {min:?} to {max:?}: give finite corners, the smallest one first, or no \
+         `known` where nobody knows them"
+    )]
+    Bounds {
+        /// What should be the smallest corner.
+        min: [f32; 3],
+        /// What should be the largest corner.
+        max: [f32; 3],
+    },
+    /// A caster without positions of its own can't get others.
+    #[error("{caster:?} has the positions of its mesh: add it with `Positions::InBuffer`")]
+    PositionsOfMesh {
+        /// The handle.
+        caster: CasterHandle,
+    },
 }
 
 /// Why a light is not added, changed or removed.

@@ -40,9 +40,11 @@ mod visibility;
 mod visibility_wgsl;
 mod wgsl;
 
-pub use casters::{CasterHandle, CasterInput, Positions};
+pub use casters::{CasterHandle, CasterInput, KnownPositions, Positions};
 pub use contrejour_plan::{ViewChoice, VisibilityKind};
-pub use deformer::{AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError};
+pub use deformer::{
+    AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError, SetPoseError,
+};
 pub use error::{
     AddMeshError, CasterError, CountersError, DeviceError, NewShadowsError, PrepareError, RemoveMeshError,
     ShadowLightError,

@@ -1,6 +1,6 @@
 //! Positions that callers own: how they lie, and their copies into the pool.
 
-use crate::casters::{CasterInput, Casters, Positions};
+use crate::casters::{CasterInput, Casters, KnownPositions, Positions};
 use crate::error::CasterError;
 use crate::pool::PooledMesh;
 
@@ -13,6 +13,9 @@ pub(crate) struct LivePositions {
     pub stride_words: u32,
     /// Where they lie among all positions.
     pub first_word: u64,
+    known: Option<KnownPositions>,
+    /// Whether those in the pool are the ones that are known.
+    is_copied: bool,
 }
 
 /// A copy of a caller's positions into the pool.
@@ -32,20 +35,52 @@ impl LivePositions {
             count => u64::from(count - 1) * u64::from(self.stride_words) + 3,
         }
     }
+
+    /// Whether they may be others in each frame, and nobody knows.
+    pub fn are_unknown(&self) -> bool {
+        self.known.is_none()
+    }
+
+    /// A box that holds them.
+    pub fn bounds(&self) -> Option<[[f32; 3]; 2]> {
+        self.known.map(|known| known.bounds)
+    }
+
+    /// Takes over what is known of them; says whether that is something else than before.
+    ///
+    /// # Errors
+    ///
+    /// The box is none.
+    pub fn take_over(&mut self, known: &KnownPositions) -> Result<bool, CasterError> {
+        check_bounds(known)?;
+        if self.known == Some(*known) {
+            return Ok(false);
+        }
+        (self.known, self.is_copied) = (Some(*known), false);
+        Ok(true)
+    }
+}
+
+fn check_bounds(KnownPositions { bounds: [min, max], .. }: &KnownPositions) -> Result<(), CasterError> {
+    // NaN is not in order.
+    let is_box = (0..3).all(|axis| min[axis] <= max[axis] && min[axis].is_finite() && max[axis].is_finite());
+    if is_box { Ok(()) } else { Err(CasterError::Bounds { min: *min, max: *max }) }
 }
 
 /// Where a caster brings its own positions: checks the buffer and says how they lie.
 pub(crate) fn live_positions(input: &CasterInput, mesh: &PooledMesh) -> Result<Option<LivePositions>, CasterError> {
-    let Positions::InBuffer { buffer, offset, stride } = &input.positions else { return Ok(None) };
-    let (offset, stride) = (*offset, *stride);
+    let Positions::InBuffer { buffer, offset, stride, known } = &input.positions else { return Ok(None) };
+    let (offset, stride, known) = (*offset, *stride, *known);
+    known.as_ref().map_or(Ok(()), check_bounds)?;
     let is_aligned =
         offset.is_multiple_of(4) && stride.is_multiple_of(4) && stride >= 12 && stride <= u64::from(u32::MAX);
     let vertex_count = mesh.topology.positions.len() as u32;
     let stride_words = (stride / 4) as u32;
-    let live = LivePositions { buffer: buffer.clone(), offset, vertex_count, stride_words, first_word: 0 };
+    let buffer = buffer.clone();
+    let live = LivePositions { buffer, offset, vertex_count, stride_words, first_word: 0, known, is_copied: false };
     let needed = offset.saturating_add(4 * live.words());
-    let available = buffer.size();
-    let can_copy = buffer.usage().contains(wgpu::BufferUsages::COPY_SRC);
+    let available = live.buffer.size();
+    let can_copy = live.buffer.usage().contains(wgpu::BufferUsages::COPY_SRC);
     if is_aligned && can_copy && needed <= available {
         return Ok(Some(live));
     }
@@ -53,11 +88,14 @@ pub(crate) fn live_positions(input: &CasterInput, mesh: &PooledMesh) -> Result<O
 }
 
 impl Casters {
-    /// Copies of all positions that are the caller's. What lies side by side both there and in the pool is one copy, so
-    /// those of a deformer are few.
-    pub fn live_copies(&self) -> Vec<LiveCopy> {
+    /// Copies of positions that are the caller's, where those in the pool may be others, for a frame that makes them. What
+    /// lies side by side both there and in the pool is one copy, so those of a deformer are few.
+    pub fn take_live_copies(&mut self) -> Vec<LiveCopy> {
         let mut copies: Vec<LiveCopy> = Vec::new();
-        for live in self.slots.iter().filter_map(|(_, caster)| caster.live.as_ref()) {
+        for live in self.slots.iter_mut().filter_map(|(_, caster)| caster.live.as_mut()) {
+            if std::mem::replace(&mut live.is_copied, live.known.is_some()) {
+                continue;
+            }
             let copy = LiveCopy {
                 source: live.buffer.clone(),
                 source_offset: live.offset,
@@ -71,6 +109,11 @@ impl Casters {
             }
         }
         copies
+    }
+
+    /// Lets all of the caller's positions be copied again.
+    pub fn copy_all(&mut self) {
+        self.slots.iter_mut().filter_map(|(_, caster)| caster.live.as_mut()).for_each(|live| live.is_copied = false);
     }
 }
 

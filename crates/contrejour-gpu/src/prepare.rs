@@ -130,10 +130,10 @@ impl Shadows {
 
     /// Uploads what changed, and decides whose maps are made.
     fn upload(&mut self, queue: &wgpu::Queue) {
-        let has_live_positions = self.casters.have_live_positions();
+        let has_unknown_positions = self.casters.have_unknown_positions();
         for (_, light) in self.lights.iter_mut() {
             light.note_touched(self.casters.touched());
-            if has_live_positions {
+            if has_unknown_positions {
                 light.make_due();
             }
         }

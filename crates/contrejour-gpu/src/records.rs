@@ -23,6 +23,12 @@ impl<T: Pod> Records<T> {
         self.items.len()
     }
 
+    /// The records of a range; fewer where it reaches beyond the end.
+    pub fn get(&self, range: Range<usize>) -> &[T] {
+        let end = range.end.min(self.items.len());
+        &self.items[range.start.min(end)..end]
+    }
+
     /// Puts records where they belong.
     pub fn put(&mut self, first: usize, records: impl IntoIterator<Item = T>) {
         let mut end = first;

@@ -109,6 +109,9 @@ impl SceneBuffers {
         if stale.empty.contains(&(BufferKind::CasterPlaces, 0)) {
             casters.move_all();
         }
+        if stale.empty.contains(&(BufferKind::Positions, 0)) {
+            casters.copy_all();
+        }
         meshes.note_filled();
         self.made = listed().copied().collect();
         self.pages.clone_from(&plan.pages);

@@ -8,7 +8,7 @@ use contrejour_mesh::{MaskedMesh, TopologyAwareMesh};
 use contrejour_plan::{BufferKind, Capacity, DeviceFacts, Eye, FramePlan, Light};
 use glam::DMat4;
 
-use crate::casters::{CasterHandle, CasterInput, Casters};
+use crate::casters::{CasterHandle, CasterInput, Casters, KnownPositions};
 use crate::device_watch::{DeviceWatch, OpenScopes};
 use crate::error::{AddMeshError, CasterError, CountersError, NewShadowsError, RemoveMeshError, ShadowLightError};
 use crate::heartbeat::poll;
@@ -157,6 +157,16 @@ impl Shadows {
         self.casters.place(caster, world_from_object, &self.meshes)
     }
 
+    /// Says which positions a caster's own buffer holds, and where. To be called when they change, or in each frame: what is
+    /// known already changes nothing.
+    ///
+    /// # Errors
+    ///
+    /// There is no such caster, it has the positions of its mesh, or the box is none; then nothing has changed.
+    pub fn note_positions(&mut self, caster: CasterHandle, known: &KnownPositions) -> Result<(), CasterError> {
+        self.casters.note_positions(caster, known, &self.meshes)
+    }
+
     /// Removes a caster. Its handle names nothing any more.
     ///
     /// # Errors
@@ -241,7 +251,7 @@ impl Shadows {
         if self.is_stale || !is_due {
             return;
         }
-        self.buffers.encode_copies(encoder, &self.casters.live_copies());
+        self.buffers.encode_copies(encoder, &self.casters.take_live_copies());
         let shared = self.buffers.shared();
         let due = self.lights.iter().filter(|(_, light)| light.is_due());
         let counted_pages = due.map(|(_, light)| light.counted_pages()).sum();

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use contrejour_gpu::{
-    AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError, Positions,
+    AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, KnownPositions, NewDeformerError, Positions,
+    SetPoseError,
 };
 use contrejour_mesh::{DeformingMesh, PartPose, PoseError, TriangleMesh};
 use contrejour_scene::{AnimatedScene, Scene};
 use glam::DVec3;
 
-use crate::casters::Casters;
+use crate::casters::{Caster, Casters};
 use crate::error::NewRendererError;
 use crate::gpu::Gpu;
 use crate::local_space::LocalSpace;
@@ -29,7 +30,10 @@ pub enum AnimationError {
     /// A frame has no pose.
     #[error(transparent)]
     Pose(#[from] PoseError),
-    /// The pose does not fit, or the device fails.
+    /// The pose does not fit its mesh.
+    #[error(transparent)]
+    SetPose(#[from] SetPoseError),
+    /// The device fails.
     #[error(transparent)]
     Deform(#[from] DeformError),
 }
@@ -37,7 +41,7 @@ pub enum AnimationError {
 /// What moves the vertices of a mesh that casts against each other.
 #[derive(Debug)]
 pub(crate) struct DeformingCaster {
-    handle: DeformHandle,
+    pub handle: DeformHandle,
     mesh: Arc<DeformingMesh>,
     triangles: Vec<[u32; 3]>,
     normals: PosedNormals,
@@ -161,23 +165,27 @@ impl Casters {
 
     /// Moves what moves.
     fn pose(&mut self, gpu: &Gpu, scene: &Scene, poses: &[PartPose], local: &LocalSpace) -> Result<(), AnimationError> {
-        let mut inputs = Vec::new();
         for (index, pose) in moving(scene, poses) {
             self.place(index, &(local.local_from_world() * pose.world_from_object));
-            if let Some(deforming) = &mut self.deforming[index] {
+            if let (Some(deforming), Some(deformer)) = (&mut self.deforming[index], &mut self.deformer) {
                 deforming.posed = deforming.mesh.posed(pose);
-                inputs.push(DeformInput {
+                deformer.set_pose(&DeformInput {
                     caster: deforming.handle,
                     joint_matrices: &pose.joint_matrices,
                     morph_weights: &pose.morph_weights,
-                });
+                })?;
             }
         }
         if let Some(deformer) = &mut self.deformer {
-            deformer.prepare(&gpu.device, &gpu.queue, &inputs)?;
+            deformer.prepare(&gpu.device, &gpu.queue)?;
             self.pose_bytes += deformer.upload_bytes();
         }
         Ok(())
+    }
+
+    /// Which positions a caster has in its latest pose; none where it is rigid.
+    pub fn known_positions(&self, caster: &Caster) -> Option<KnownPositions> {
+        self.deformer.as_ref()?.known(self.deforming(caster)?.handle)
     }
 
     /// Where the positions of a mesh of the scene are.

@@ -149,8 +149,8 @@ impl Casters {
     /// Where the positions of a caster are.
     fn positions_of(&self, caster: &Caster) -> Positions {
         match (self.positions(caster.scene_mesh), &self.meshes[caster.mesh]) {
-            (Positions::InBuffer { buffer, offset, stride }, CasterMesh::Masked { first_vertex, .. }) => {
-                Positions::InBuffer { buffer, offset: offset + stride * u64::from(*first_vertex), stride }
+            (Positions::InBuffer { buffer, offset, stride, known }, CasterMesh::Masked { first_vertex, .. }) => {
+                Positions::InBuffer { buffer, offset: offset + stride * u64::from(*first_vertex), stride, known }
             }
             (positions, _) => positions,
         }
@@ -214,6 +214,9 @@ impl CastShadows {
     ) -> Result<(), PrepareShadowsError> {
         for (handle, caster) in self.handles.iter().zip(&casters.placed) {
             self.shadows.place_caster(*handle, &caster.local_from_object)?;
+            if let Some(known) = casters.known_positions(caster) {
+                self.shadows.note_positions(*handle, &known)?;
+            }
         }
         for (handle, light_local) in lights_local {
             self.shadows.set_light(handle, light_local)?;

@@ -217,7 +217,7 @@ impl Renderer {
         let uniform_bytes = self.pass.upload(&self.gpu, &self.uniforms, &self.lights.records);
         let uploaded = ms();
         let mut encoder = self.encoder();
-        if let Some(deformer) = &self.casters.deformer {
+        if let Some(deformer) = &mut self.casters.deformer {
             deformer.encode(&mut encoder, &mut self.timer);
         }
         let Self { gpu, cast, counter_log, timer, .. } = self;

@@ -52,7 +52,7 @@ fn main() -> Outcome {
         mapped_at_creation: false,
     });
 
-    let positions = Positions::InBuffer { buffer: deformed.clone(), offset: 0, stride: STRIDE };
+    let positions = Positions::InBuffer { buffer: deformed.clone(), offset: 0, stride: STRIDE, known: None };
     shadows.add_caster(&CasterInput { mesh, world_from_object: common::world_from_body(), positions })?;
     shadows.add_light(&common::light(), &ShadowOptions::default())?;
     for time in [0.0, 1.0, 2.0] {

@@ -65,8 +65,8 @@ pub use wgpu;
 /// What most users need.
 pub mod prelude {
     pub use contrejour_gpu::{
-        CasterHandle, CasterInput, DeformInput, Deformer, EyeInput, LightHandle, MeshHandle, PassTimer, Positions,
-        ShadowOptions, Shadows, Untimed,
+        CasterHandle, CasterInput, DeformInput, Deformer, EyeInput, KnownPositions, LightHandle, MeshHandle, PassTimer,
+        Positions, ShadowOptions, Shadows, Untimed,
     };
     pub use contrejour_mesh::{AlphaMask, BuildOptions, DeformingMesh, MaskImage, MaskedMesh, TopologyAwareMesh};
     pub use contrejour_plan::{

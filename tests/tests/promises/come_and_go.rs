@@ -62,7 +62,7 @@ impl Stock {
             let built = TopologyAwareMesh::build(&part.topology.positions, &part.triangles, &options).map_err(text)?;
             let words = built.positions.iter().flat_map(|&[x, y, z]| [1.2 * x, y, 0.9 * z, 0.0]).collect::<Vec<f32>>();
             let buffer = gpu.upload("own positions", bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE);
-            Ok((Arc::new(built), Positions::InBuffer { buffer, offset: 0, stride: 16 }))
+            Ok((Arc::new(built), Positions::InBuffer { buffer, offset: 0, stride: 16, known: None }))
         };
         let deforming = made.iter().rev().skip(3).take(3).map(of_part).collect::<Result<_, String>>()?;
         let mut random = Random::new(1);

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use contrejour_gpu::{DeformError, DeformHandle, DeformInput, Deformer, Positions, Untimed};
+use contrejour_gpu::{
+    DeformError, DeformHandle, DeformInput, Deformer, KnownPositions, Positions, SetPoseError, Untimed,
+};
 use contrejour_layout::{BLOCK_SIZE, DeformBlock};
 use contrejour_mesh::{DeformingMesh, PartPose};
 use contrejour_oracle::OracleTopology;
@@ -63,9 +65,11 @@ impl<'a> Deformed<'a> {
     /// Poses all meshes and returns where the device leaves them.
     fn frame(&mut self, meshes: &[PosedMesh], pose: usize) -> Result<Vec<OwnPositions>, String> {
         let Gpu { device, queue, .. } = self.gpu;
-        let mut inputs = vec![input(self.other.0, &self.other.1.poses[2])];
-        inputs.extend(self.handles.iter().zip(meshes).map(|(&caster, mesh)| input(caster, &mesh.poses[pose])));
-        self.deformer.prepare(device, queue, &inputs).map_err(|error| error.to_string())?;
+        set_pose(&mut self.deformer, self.other.0, &self.other.1.poses[2])?;
+        for (caster, mesh) in self.handles.iter().zip(meshes) {
+            set_pose(&mut self.deformer, *caster, &mesh.poses[pose])?;
+        }
+        self.deformer.prepare(device, queue).map_err(|error| error.to_string())?;
         let mut encoder = device.create_command_encoder(&Default::default());
         self.deformer.encode(&mut encoder, &mut Untimed);
         queue.submit([encoder.finish()]);
@@ -73,18 +77,33 @@ impl<'a> Deformed<'a> {
     }
 
     fn positions(&self, caster: DeformHandle, mesh: &DeformingMesh) -> Result<OwnPositions, String> {
-        let Some(Positions::InBuffer { buffer, offset, stride }) = self.deformer.positions(caster) else {
+        let Some(Positions::InBuffer { buffer, offset, stride, known }) = self.deformer.positions(caster) else {
             return Err("a prepared mesh has no positions".into());
         };
         let first = offset as usize / 12;
         let mut positions: Vec<[f32; 3]> = self.gpu.read_back(&buffer, first + mesh.vertices().len());
         positions.drain(..first);
+        check_box(&known.ok_or("a posed mesh has a box")?, &positions)?;
         Ok(OwnPositions { buffer: buffer.clone(), offset, stride, positions })
     }
 }
 
 fn input(caster: DeformHandle, pose: &PartPose) -> DeformInput<'_> {
     DeformInput { caster, joint_matrices: &pose.joint_matrices, morph_weights: &pose.morph_weights }
+}
+
+fn set_pose(deformer: &mut Deformer, caster: DeformHandle, pose: &PartPose) -> Outcome {
+    deformer.set_pose(&input(caster, pose)).map_err(|error| error.to_string())
+}
+
+/// All positions are in the box that is known of them.
+fn check_box(known: &KnownPositions, positions: &[[f32; 3]]) -> Outcome {
+    let [min, max] = known.bounds;
+    let is_out = |position: &&[f32; 3]| (0..3).any(|axis| !(min[axis]..=max[axis]).contains(&position[axis]));
+    match positions.iter().find(is_out) {
+        Some(position) => Err(format!("{position:?} is not in the box {min:?} {max:?}")),
+        None => Ok(()),
+    }
 }
 
 fn are_exact(gpu: &Gpu, meshes: &[PosedMesh]) -> Outcome {
@@ -130,6 +149,28 @@ fn uploads_poses_alone(gpu: &Gpu) -> Outcome {
     if deformed.deformer.upload_bytes() != expected {
         return Err(format!("{} bytes are uploaded, {expected} expected", deformed.deformer.upload_bytes()));
     }
+    // What has the same pose is neither uploaded nor made again.
+    let versions = |deformed: &Deformed| {
+        deformed.handles.iter().map(|&handle| deformed.deformer.known(handle)).collect::<Vec<_>>()
+    };
+    let before = versions(&deformed);
+    for (caster, mesh) in deformed.handles.iter().zip(&meshes) {
+        let Some(Positions::InBuffer { buffer, offset, .. }) = deformed.deformer.positions(*caster) else {
+            return Err("a prepared mesh has no positions".into());
+        };
+        gpu.queue.write_buffer(&buffer, offset, &vec![0; 12 * mesh.deforming.vertices().len()]);
+    }
+    let kept = deformed.frame(&meshes, 1)?;
+    let is_made = kept.iter().any(|kept| kept.positions.as_flattened().iter().any(|&coordinate| coordinate != 0.0));
+    if deformed.deformer.upload_bytes() != 0 || is_made || versions(&deformed) != before {
+        return Err("a pose that a mesh has already is made again".into());
+    }
+    deformed.frame(&meshes, 2)?;
+    let changed = deformed.deformer.upload_bytes();
+    if changed != expected / 3 * 2 || versions(&deformed).iter().zip(&before).any(|(now, before)| now == before) {
+        return Err(format!("{changed} bytes are uploaded for two other poses of three"));
+    }
+    deformed.frame(&meshes, 1)?;
     // What is left stays where it is.
     if !deformed.deformer.remove(deformed.handles[0]) || deformed.deformer.remove(deformed.handles[0]) {
         return Err("a mesh can be removed once".into());
@@ -152,20 +193,22 @@ fn misfits_are_refused(gpu: &Gpu) -> Outcome {
     let weightless = DeformInput { morph_weights: &[0.0], ..sound[1] };
     let not_finite = DeformInput { morph_weights: &[0.0, 1e39], ..sound[1] };
     let Gpu { device, queue, .. } = gpu;
-    let mut refused = |inputs: &[DeformInput]| deformed.deformer.prepare(device, queue, inputs).err();
+    let deformer = &mut deformed.deformer;
+    let missing = |deformer: &mut Deformer| match deformer.prepare(device, queue) {
+        Err(DeformError::MissingPose { caster }) => Some(caster),
+        _ => None,
+    };
     let found = [
-        matches!(refused(&sound[..1]), Some(DeformError::MissingPose { caster }) if caster == sound[1].caster),
-        matches!(refused(&[sound[0], short]), Some(DeformError::Count { given: 2, needed: 3, .. })),
-        matches!(refused(&[sound[0], weightless]), Some(DeformError::Count { given: 1, needed: 2, .. })),
-        matches!(refused(&[sound[0], not_finite]), Some(DeformError::NotFinite { .. })),
-        refused(&sound).is_none(),
+        deformer.set_pose(&sound[0]).is_ok() && missing(deformer) == Some(sound[1].caster),
+        matches!(deformer.set_pose(&short), Err(SetPoseError::Count { given: 2, needed: 3, .. })),
+        matches!(deformer.set_pose(&weightless), Err(SetPoseError::Count { given: 1, needed: 2, .. })),
+        matches!(deformer.set_pose(&not_finite), Err(SetPoseError::NotFinite { .. })),
+        missing(deformer) == Some(sound[1].caster),
+        deformer.set_pose(&sound[1]).is_ok() && deformer.prepare(device, queue).is_ok(),
+        deformer.remove(sound[0].caster),
+        matches!(deformer.set_pose(&sound[0]), Err(SetPoseError::UnknownCaster { caster }) if caster == sound[0].caster),
     ];
-    deformed.deformer.remove(sound[0].caster);
-    let gone = deformed.deformer.prepare(device, queue, &sound);
-    match gone {
-        Err(DeformError::UnknownCaster { caster }) if caster == sound[0].caster && found == [true; 5] => Ok(()),
-        _ => Err(format!("refused as expected: {found:?}, and then {gone:?}")),
-    }
+    if found == [true; 8] { Ok(()) } else { Err(format!("refused as expected: {found:?}")) }
 }
 
 /// A mesh of so many vertices with some joints and morph targets, and a pose of it.
@@ -226,8 +269,10 @@ impl<'a> Troupe<'a> {
     /// Draws a frame; each member's positions are where they were.
     fn frame(&mut self) -> Outcome {
         let Gpu { device, queue, .. } = self.gpu;
-        let inputs: Vec<_> = self.members.iter().map(|member| input(member.handle, &member.pose)).collect();
-        self.deformer.prepare(device, queue, &inputs).map_err(|error| error.to_string())?;
+        for member in &self.members {
+            set_pose(&mut self.deformer, member.handle, &member.pose)?;
+        }
+        self.deformer.prepare(device, queue).map_err(|error| error.to_string())?;
         let mut encoder = device.create_command_encoder(&Default::default());
         self.deformer.encode(&mut encoder, &mut Untimed);
         queue.submit([encoder.finish()]);
@@ -262,7 +307,9 @@ impl<'a> Troupe<'a> {
             let first = *offset as usize / 4;
             let words: Vec<f32> = self.gpu.read_back(buffer, first + 3 * mesh.vertices().len());
             let found: Vec<[f32; 3]> = bytemuck::pod_collect_to_vec(&words[first..]);
-            compare_positions(mesh, pose, &mesh.posed(pose), &found).map_err(|error| format!("{handle:?}: {error}"))?;
+            let at = |error: String| format!("{handle:?}: {error}");
+            compare_positions(mesh, pose, &mesh.posed(pose), &found).map_err(at)?;
+            check_box(&self.deformer.known(*handle).ok_or("a posed mesh has a box")?, &found).map_err(at)?;
             count += found.len();
         }
         Ok(count)

@@ -227,7 +227,7 @@ fn destroyed_positions_spoil_one_frame() -> Outcome {
         gpu.upload("positions", bytes, wgpu::BufferUsages::STORAGE)
     };
     let mut frame = |buffer: &wgpu::Buffer| -> Result<Option<String>, String> {
-        let positions = Positions::InBuffer { buffer: buffer.clone(), offset: 0, stride: 12 };
+        let positions = Positions::InBuffer { buffer: buffer.clone(), offset: 0, stride: 12, known: None };
         let caster = CasterInput { mesh: handle, world_from_object: part.world_from_object, positions };
         let caster = shadows.add_caster(&caster).map_err(text)?;
         shadows.prepare(&gpu.device, &gpu.queue).map_err(text)?;

@@ -22,6 +22,7 @@ mod own_positions;
 mod pages;
 mod peers;
 mod pictures;
+mod posed;
 mod repeatable;
 mod silhouettes;
 mod smoothie_ways;
@@ -44,6 +45,7 @@ fn main() -> ExitCode {
         masked::trials(),
         come_and_go::trials(),
         deformed::trials(),
+        posed::trials(),
         device_trouble::trials(),
         pages::trials(),
         ten_million::trials(),

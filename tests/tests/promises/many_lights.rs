@@ -5,12 +5,12 @@ use std::sync::Arc;
 use contrejour_gpu::{CasterHandle, CasterInput, LightHandle, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_plan::{Light, LightKind, Omitted, Reason, ShadowSettings};
 use contrejour_tests::compare::compare_exact;
-use contrejour_tests::gpu::Gpu;
+use contrejour_tests::gpu::{Gpu, draw_whole};
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::point;
 use contrejour_tests::meshes::shapes;
 use contrejour_tests::random::Random;
-use contrejour_tests::texture::read_layers;
+use contrejour_tests::texture::read_maps;
 use glam::{DMat4, DQuat, DVec3};
 use libtest_mimic::Trial;
 
@@ -71,33 +71,11 @@ impl<'a> Crowd<'a> {
 
     /// Draws until all lists had room. Returns how many lights the first frame made.
     fn draw(&mut self) -> Result<u32, String> {
-        let _waiting = self.gpu.waiting();
-        let Gpu { device, queue, .. } = self.gpu;
-        let mut redone = None;
-        for _ in 0..5 {
-            self.shadows.prepare(device, queue).map_err(text)?;
-            redone.get_or_insert(self.shadows.stats().lights_redone);
-            let mut encoder = device.create_command_encoder(&Default::default());
-            self.shadows.encode(&mut encoder, &mut Untimed);
-            queue.submit([encoder.finish()]);
-            self.shadows.wait_for_counters(device).map_err(text)?;
-            if self.shadows.is_complete() {
-                return redone.ok_or_else(|| "no frame was drawn".into());
-            }
-        }
-        Err("lists never had room".into())
+        draw_whole(self.gpu, &mut self.shadows, |_| ())
     }
 
-    /// All texels of all maps that receivers look up.
     fn maps(&self, light: LightHandle) -> Result<Vec<u8>, String> {
-        let plan = self.shadows.plan(light).ok_or("the light was prepared")?;
-        let visibility = plan.visibility.ok_or("the light has maps")?;
-        let maps = self.shadows.maps(light);
-        let mut bytes = Vec::new();
-        for kind in visibility.textures() {
-            bytes.extend(read_layers(self.gpu, maps.of(*kind).ok_or("a listed map is there")?));
-        }
-        if bytes.is_empty() { Err("the light has no texel".into()) } else { Ok(bytes) }
+        read_maps(self.gpu, &self.shadows, light)
     }
 }
 

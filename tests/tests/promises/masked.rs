@@ -168,6 +168,7 @@ fn draw(
             ),
             offset: 0,
             stride: 12,
+            known: None,
         });
         let input = CasterInput { mesh, world_from_object: leaf.world_from_object, positions };
         shadows.add_caster(&input).map_err(|error| text(&error))?;

@@ -138,7 +138,7 @@ fn planes_come_with_the_mesh(gpu: &Gpu) -> Outcome {
     let mesh = shadows.add_mesh(Arc::new(topology)).map_err(|error| error.to_string())?;
     let light = point(DVec3::new(0.1, 0.2, 4.0), DVec3::ZERO, 1.0);
     shadows.add_light(&light, &shadow_options).map_err(|error| error.to_string())?;
-    let live = Positions::InBuffer { buffer, offset: 0, stride: 12 };
+    let live = Positions::InBuffer { buffer, offset: 0, stride: 12, known: None };
     let takes_turns = [(live.clone(), 0_u32), (Positions::OfMesh, 1), (live, 0), (Positions::OfMesh, 1)];
     for (positions, expected) in takes_turns {
         let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions: positions.clone() };

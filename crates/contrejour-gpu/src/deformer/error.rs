@@ -46,15 +46,24 @@ pub enum AddDeformingError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeformError {
-    /// A pose names a mesh that is not there.
-    #[error("a pose names the mesh {caster:?}, which is not here: use the handle of `add` and no removed one")]
-    UnknownCaster {
+    /// A mesh has no pose.
+    #[error("the mesh {caster:?} has no pose: set one with `set_pose`, or remove it")]
+    MissingPose {
         /// The handle.
         caster: DeformHandle,
     },
-    /// A mesh has no pose.
-    #[error("the mesh {caster:?} has no pose: give one for each mesh, or remove it")]
-    MissingPose {
+    /// The device fails.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+}
+
+/// Why [`Deformer::set_pose`](super::Deformer::set_pose) refuses.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SetPoseError {
+    /// It names a mesh that is not there.
+    #[error("a pose names the mesh {caster:?}, which is not here: use the handle of `add` and no removed one")]
+    UnknownCaster {
         /// The handle.
         caster: DeformHandle,
     },
@@ -78,7 +87,4 @@ pub enum DeformError {
         /// Joint matrices or morph weights.
         what: &'static str,
     },
-    /// The device fails.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
 }

@@ -2,7 +2,7 @@
 
 mod error;
 mod pool;
-mod poses;
+mod pose;
 mod resources;
 
 use std::sync::Arc;
@@ -10,22 +10,22 @@ use std::sync::Arc;
 use contrejour_mesh::DeformingMesh;
 use glam::DMat4;
 
-pub use error::{AddDeformingError, DeformError, NewDeformerError};
+pub use error::{AddDeformingError, DeformError, NewDeformerError, SetPoseError};
 
-use crate::casters::Positions;
+use crate::casters::{KnownPositions, Positions};
 use crate::device_watch::{DeviceWatch, OpenScopes};
 use crate::error::DeviceError;
 use crate::shadows::Shadows;
 use crate::timer::PassTimer;
 use pool::Pool;
-use poses::Poses;
+use pose::DevicePose;
 use resources::{DeformPipeline, DeformResources};
 
 /// A mesh that was given to [`Deformer::add`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DeformHandle(u64);
 
-/// The pose of a deforming mesh in a frame.
+/// The pose of a deforming mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct DeformInput<'a> {
     /// Which one.
@@ -39,9 +39,9 @@ pub struct DeformInput<'a> {
 /// Moves the vertices of all deforming meshes of a scene in one pass a frame, before the shadows of any light: in one
 /// dispatch for all that was there in the first frame, and in some more for what came later and found no room among it.
 ///
-/// Each frame it is [prepared](Self::prepare) with the poses, which are all that goes to the device, and
+/// Meshes get [poses](Self::set_pose); those that changed are all that a [prepared](Self::prepare) frame uploads. It
 /// [records](Self::encode) its stage into the encoder that the shadows follow in; casters name the
-/// [positions](Self::positions) that it leaves. Vertices that were
+/// [positions](Self::positions) that it leaves, and hear [of each other pose](Shadows::note_positions). Vertices that were
 /// [welded as moving alike](DeformingMesh::topology) have equal bits in any pose. A coordinate that overflows stays at the
 /// largest number.
 ///
@@ -58,6 +58,8 @@ pub struct Deformer {
     /// None until the first caster is prepared, and where there is none any more.
     resources: Option<DeformResources>,
     watch: DeviceWatch,
+    /// Whether positions are to be made: other poses or meshes were uploaded.
+    is_due: bool,
     upload_bytes: u64,
     set_up_bytes: u64,
 }
@@ -83,6 +85,7 @@ impl Deformer {
             pipeline: None,
             resources: None,
             watch: DeviceWatch::new(device, scopes, 0)?,
+            is_due: false,
             upload_bytes: 0,
             set_up_bytes: 0,
         })
@@ -106,19 +109,28 @@ impl Deformer {
         self.pool.remove(caster)
     }
 
-    /// Prepares a frame: uploads joint matrices and weights, and the meshes that came.
+    /// Gives a mesh the pose that it keeps until it gets another one.
     ///
     /// # Errors
     ///
-    /// A pose is missing, is of no mesh here, or has other joints or morph targets than its mesh or numbers that are not
-    /// finite; then nothing has changed. Where the device fails, the next prepare makes everything again, and positions are
-    /// elsewhere.
-    pub fn prepare(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        inputs: &[DeformInput<'_>],
-    ) -> Result<(), DeformError> {
+    /// The pose is of no mesh here, has other joints or morph targets than its mesh, or numbers that are not finite; then the
+    /// mesh keeps the one that it had.
+    pub fn set_pose(&mut self, input: &DeformInput<'_>) -> Result<(), SetPoseError> {
+        let DeformInput { caster: handle, joint_matrices, morph_weights } = *input;
+        let caster = self.pool.casters.get(&handle).ok_or(SetPoseError::UnknownCaster { caster: handle })?;
+        let pose = DevicePose::new(handle, &caster.mesh, (joint_matrices, morph_weights))?;
+        let bounds = caster.mesh.posed_bounds(joint_matrices, morph_weights);
+        self.pool.set_pose(handle, &pose, bounds);
+        Ok(())
+    }
+
+    /// Prepares a frame: uploads poses that changed, and the meshes that came.
+    ///
+    /// # Errors
+    ///
+    /// A mesh has no pose; then nothing has changed. Where the device fails, the next prepare makes everything again, and
+    /// positions are elsewhere.
+    pub fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), DeformError> {
         self.watch.check(device)?;
         let late = self.watch.late();
         self.keep_if(late)?;
@@ -126,7 +138,9 @@ impl Deformer {
         if self.resources.is_none() {
             self.pool.pack(self.most_bytes);
         }
-        let mut poses = Poses::new(&self.pool, inputs)?;
+        if let Some((&caster, _)) = self.pool.casters.iter().find(|(_, caster)| caster.known.is_none()) {
+            return Err(DeformError::MissingPose { caster });
+        }
         if self.pool.casters.is_empty() {
             self.resources = None;
             return Ok(());
@@ -139,11 +153,13 @@ impl Deformer {
                 DeformResources::follow(before, (device, queue), pipeline, &mut self.pool, self.most_bytes);
             self.resources = Some(made);
             self.set_up_bytes = bytes;
+            self.is_due = true;
             let made = self.watch.close(device, scopes, bytes);
             self.keep_if(made)?;
         }
         if let Some(resources) = &self.resources {
-            self.upload_bytes = resources.upload(queue, &mut poses);
+            self.upload_bytes = resources.upload(queue, &mut self.pool);
+            self.is_due |= self.upload_bytes > 0;
         }
         Ok(())
     }
@@ -156,22 +172,40 @@ impl Deformer {
         made
     }
 
-    /// Records the stage; nothing where there is no mesh or no frame was prepared since the last one came or went.
-    pub fn encode<T: PassTimer>(&self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
-        if let (Some(pipeline), Some(resources), false) = (&self.pipeline, &self.resources, self.pool.has_changed) {
+    /// Records the stage; nothing where no pose changed since it was last recorded and no mesh came, or where no frame was
+    /// prepared since then.
+    ///
+    /// The encoder's commands must be submitted, or dropped together with this object.
+    pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
+        let is_prepared = !self.pool.has_changed;
+        if let (Some(pipeline), Some(resources), true, true) =
+            (&self.pipeline, &self.resources, is_prepared, self.is_due)
+        {
             pipeline.encode(encoder, resources, timer);
+            self.is_due = false;
         }
     }
 
     /// Where the positions of a mesh lie once the recorded commands have run, for [`CasterInput`](crate::CasterInput)
-    /// and, as 12 bytes a vertex, for vertex buffers; none before a frame was prepared with the mesh.
+    /// and, as 12 bytes a vertex, for vertex buffers; none before a frame was prepared with the mesh. What is
+    /// [known](Self::known) of them is that of the latest pose.
     pub fn positions(&self, caster: DeformHandle) -> Option<Positions> {
         let caster = self.pool.casters.get(&caster).filter(|caster| !caster.is_new)?;
         let buffer = self.resources.as_ref()?.positions(caster.batch)?;
-        Some(Positions::InBuffer { buffer: buffer.clone(), offset: 4 * caster.first_word, stride: 12 })
+        Some(Positions::InBuffer {
+            buffer: buffer.clone(),
+            offset: 4 * caster.first_word,
+            stride: 12,
+            known: caster.known,
+        })
     }
 
-    /// Bytes of joint matrices and weights that the last [`prepare`](Self::prepare) uploaded.
+    /// Which positions a mesh has in its latest pose, and where, for [`Shadows::note_positions`]; none before it has any.
+    pub fn known(&self, caster: DeformHandle) -> Option<KnownPositions> {
+        self.pool.casters.get(&caster)?.known
+    }
+
+    /// Bytes of poses that the last [`prepare`](Self::prepare) uploaded.
     pub fn upload_bytes(&self) -> u64 {
         self.upload_bytes
     }

@@ -7,7 +7,9 @@ use std::sync::Arc;
 use contrejour_layout::{BLOCK_SIZE, DeformBlock, Influence, JointMatrix, MorphDelta, RestVertex};
 use contrejour_mesh::DeformingMesh;
 
+use super::pose::DevicePose;
 use super::{AddDeformingError, DeformHandle};
+use crate::casters::KnownPositions;
 use crate::ranges::Ranges;
 use crate::records::Records;
 
@@ -30,7 +32,7 @@ pub(super) const MESH_POOLS: usize = 3;
 const POSITION_WORDS: u64 = 3;
 
 /// All casters, by their handles, with their meshes.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Pool {
     pub casters: BTreeMap<DeformHandle, DeformingCaster>,
     /// Each once, however many casters share it, by its address.
@@ -38,6 +40,11 @@ pub(super) struct Pool {
     places: PerPool<Ranges>,
     /// By index; none where the last caster left.
     pub batches: Vec<Option<Batch>>,
+    /// The poses of all casters, in their places.
+    pub joint_matrices: Records<JointMatrix>,
+    pub morph_weights: Records<f32>,
+    /// How often a pose was another one than before.
+    versions: u64,
     /// Whether casters came or went since [`note_written`](Self::note_written).
     pub has_changed: bool,
 }
@@ -58,6 +65,8 @@ pub(super) struct DeformingCaster {
     pub starts: PerPool<u64>,
     pub batch: usize,
     pub first_word: u64,
+    /// Where its latest pose puts its vertices; none before it has any.
+    pub known: Option<KnownPositions>,
     pub is_new: bool,
     blocks: Range<u64>,
 }
@@ -132,7 +141,23 @@ impl Pool {
         let first_block = batch.blocks.take(block_count(&mesh));
         let blocks = first_block..first_block + block_count(&mesh);
         batch.records.put(first_block as usize, deform_blocks(&mesh, mesh_starts, starts, first_word));
-        DeformingCaster { mesh, starts, batch: index, first_word, is_new: true, blocks }
+        DeformingCaster { mesh, starts, batch: index, first_word, known: None, is_new: true, blocks }
+    }
+
+    /// Gives a caster a pose; what it had already is not written again.
+    pub fn set_pose(&mut self, handle: DeformHandle, pose: &DevicePose, bounds: [[f32; 3]; 2]) {
+        let Some(caster) = self.casters.get_mut(&handle) else { return };
+        let [joints, weights] = caster.pose_places();
+        let DevicePose { joint_matrices, morph_weights } = pose;
+        let is_same = are_same(self.joint_matrices.get(joints.clone()), joint_matrices)
+            && are_same(self.morph_weights.get(weights.clone()), morph_weights);
+        if is_same && caster.known.is_some() {
+            return;
+        }
+        self.joint_matrices.put(joints.start, joint_matrices.iter().copied());
+        self.morph_weights.put(weights.start, morph_weights.iter().copied());
+        self.versions += 1;
+        caster.known = Some(KnownPositions { version: self.versions, bounds });
     }
 
     /// The first batch with room; its blocks are fewer bytes than its positions, but for tiny meshes.
@@ -182,11 +207,18 @@ impl Pool {
 
     /// Places everything side by side. For when nothing is on the device.
     pub fn pack(&mut self, most: u64) {
-        let casters = std::mem::take(&mut self.casters);
-        *self = Self { has_changed: true, ..Self::default() };
-        for (handle, caster) in casters {
-            let caster = self.place(caster.mesh, most.min(4 * u64::from(u32::MAX)) / 4);
-            self.casters.insert(handle, caster);
+        let before = std::mem::take(self);
+        (self.has_changed, self.versions) = (true, before.versions);
+        for (handle, caster) in before.casters {
+            let [joints, weights] = caster.pose_places();
+            let mut placed = self.place(caster.mesh, most.min(4 * u64::from(u32::MAX)) / 4);
+            if caster.known.is_some() {
+                placed.known = caster.known;
+                let [new_joints, new_weights] = placed.pose_places();
+                self.joint_matrices.put(new_joints.start, before.joint_matrices.get(joints).iter().copied());
+                self.morph_weights.put(new_weights.start, before.morph_weights.get(weights).iter().copied());
+            }
+            self.casters.insert(handle, placed);
         }
     }
 
@@ -203,6 +235,29 @@ impl Pool {
     }
 }
 
+impl Default for Pool {
+    fn default() -> Self {
+        Self {
+            casters: BTreeMap::new(),
+            meshes: BTreeMap::new(),
+            places: PerPool::default(),
+            batches: Vec::new(),
+            joint_matrices: Records::filled_with(JointMatrix::default()),
+            morph_weights: Records::filled_with(0.0),
+            versions: 0,
+            has_changed: false,
+        }
+    }
+}
+
+impl DeformingCaster {
+    /// Where its joint matrices and its morph weights lie.
+    fn pose_places(&self) -> [Range<usize>; 2] {
+        let [.., joints, weights] = self.starts.map(|start| start as usize);
+        [joints..joints + self.mesh.joint_count() as usize, weights..weights + self.mesh.morph_count() as usize]
+    }
+}
+
 impl Default for Batch {
     fn default() -> Self {
         let records = Records::filled_with(DeformBlock::default());
@@ -215,6 +270,11 @@ impl Batch {
     pub fn word_end(&self) -> u64 {
         self.words.end()
     }
+}
+
+/// By their bits.
+fn are_same<T: bytemuck::NoUninit>(some: &[T], others: &[T]) -> bool {
+    bytemuck::cast_slice::<_, u8>(some) == bytemuck::cast_slice::<_, u8>(others)
 }
 
 fn key(mesh: &Arc<DeformingMesh>) -> usize {

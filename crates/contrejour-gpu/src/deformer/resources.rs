@@ -3,7 +3,6 @@
 use contrejour_layout::DeformBlock;
 
 use super::pool::{Batch, MESH_POOLS, POOLS, PerPool, Pool, SharedMesh};
-use super::poses::Poses;
 use crate::compute::dispatch;
 use crate::stages::{SCENE, SceneComputeStage};
 use crate::timer::PassTimer;
@@ -126,6 +125,14 @@ impl DeformResources {
             let (what, size) = POOLS[index];
             maker.grown(what, old_pools[index].as_ref(), size * ends[index], index < MESH_POOLS)
         });
+        let [.., has_new_joints, has_new_weights] =
+            std::array::from_fn::<_, 5, _>(|index| old_pools[index].as_ref() != Some(&pools[index]));
+        if has_new_joints {
+            pool.joint_matrices.change_all();
+        }
+        if has_new_weights {
+            pool.morph_weights.change_all();
+        }
         let has_new_pools = pools.iter().zip(&old_pools).any(|(new, old)| old.as_ref() != Some(new));
         let all_words: u64 = pool.batches.iter().flatten().filter_map(|batch| batch.room).sum();
         let batches = pool.batches.iter_mut().zip(old_batches).map(|(batch, old)| {
@@ -156,8 +163,8 @@ impl DeformResources {
         Some(&self.batches.get(batch)?.as_ref()?.positions)
     }
 
-    /// Uploads the poses; returns the number of bytes.
-    pub fn upload(&self, queue: &wgpu::Queue, poses: &mut Poses) -> u64 {
+    /// Uploads the poses that changed; returns the number of bytes.
+    pub fn upload(&self, queue: &wgpu::Queue, pool: &mut Pool) -> u64 {
         let [.., joint_matrices, morph_weights] = &self.pools;
         let mut uploaded = 0;
         let mut write = |buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]| {
@@ -166,8 +173,8 @@ impl DeformResources {
                 uploaded += bytes.len() as u64;
             }
         };
-        poses.joint_matrices.take_changed(false, |offset, bytes| write(joint_matrices, offset, bytes));
-        poses.morph_weights.take_changed(false, |offset, bytes| write(morph_weights, offset, bytes));
+        pool.joint_matrices.take_changed(false, |offset, bytes| write(joint_matrices, offset, bytes));
+        pool.morph_weights.take_changed(false, |offset, bytes| write(morph_weights, offset, bytes));
         uploaded
     }
 }

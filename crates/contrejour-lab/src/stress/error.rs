@@ -2,7 +2,7 @@
 
 use contrejour_gpu::{
     AddDeformingError, AddMeshError, CasterError, CountersError, DeformError, NewDeformerError, NewShadowsError,
-    PrepareError, ShadowLightError,
+    PrepareError, SetPoseError, ShadowLightError,
 };
 use contrejour_mesh::{DeformingMeshError, TopologyError};
 use contrejour_render::{AnimationError, DeviceFault, DrawError, MoveError, NewRendererError, ReadError, SizeTooLarge};
@@ -49,6 +49,9 @@ pub enum StressError {
     /// A pose is not taken.
     #[error(transparent)]
     Deform(#[from] DeformError),
+    /// A pose does not fit its mesh.
+    #[error(transparent)]
+    SetPose(#[from] SetPoseError),
     /// The device does not allow shadows.
     #[error(transparent)]
     Shadows(#[from] NewShadowsError),

@@ -50,7 +50,14 @@ pub(super) struct Placed {
     pub deformer: Deformer,
     pub casters: Vec<CasterHandle>,
     pub lights: Vec<LightHandle>,
-    flexible: Vec<DeformHandle>,
+    flexible: Vec<FlexibleCaster>,
+}
+
+/// A caster that deforms.
+#[derive(Clone, Copy, Debug)]
+struct FlexibleCaster {
+    caster: CasterHandle,
+    deformed: DeformHandle,
 }
 
 /// One caster in so many deforms, where things move.
@@ -201,19 +208,24 @@ impl World {
     pub fn place(&self, gpu: &Gpu, frame: u64) -> Result<Placed, StressError> {
         let mut deformer = Deformer::new(&gpu.device)?;
         let poses = self.flexible_poses(frame);
-        let flexible = poses.iter().map(|_| deformer.add(Arc::clone(&self.flexible.deforming)));
-        let flexible = flexible.collect::<Result<Vec<_>, _>>()?;
-        deformer.prepare(&gpu.device, &gpu.queue, &inputs(&flexible, &poses))?;
+        let deformed = poses.iter().map(|_| deformer.add(Arc::clone(&self.flexible.deforming)));
+        let deformed = deformed.collect::<Result<Vec<_>, _>>()?;
+        for (handle, pose) in deformed.iter().zip(&poses) {
+            set_pose(&mut deformer, *handle, pose)?;
+        }
+        deformer.prepare(&gpu.device, &gpu.queue)?;
 
         let mut shadows = Shadows::new(&gpu.device)?;
         let rigid_mesh = shadows.add_mesh(Arc::clone(&self.mesh))?;
         let flexible_mesh = shadows.add_mesh(Arc::clone(&self.flexible.topology))?;
-        let mut casters = Vec::new();
+        let (mut casters, mut flexible) = (Vec::new(), Vec::new());
         for (index, world_from_object) in self.casters(frame).enumerate() {
-            let positions = self.flexible_index(index).and_then(|index| deformer.positions(flexible[index]));
-            let mesh = if positions.is_some() { flexible_mesh } else { rigid_mesh };
-            let positions = positions.unwrap_or_default();
-            casters.push(shadows.add_caster(&CasterInput { mesh, world_from_object, positions })?);
+            let deformed = self.flexible_index(index).map(|index| deformed[index]);
+            let mesh = if deformed.is_some() { flexible_mesh } else { rigid_mesh };
+            let positions = deformed.and_then(|deformed| deformer.positions(deformed)).unwrap_or_default();
+            let caster = shadows.add_caster(&CasterInput { mesh, world_from_object, positions })?;
+            casters.push(caster);
+            flexible.extend(deformed.map(|deformed| FlexibleCaster { caster, deformed }));
         }
         let mut lights = Vec::new();
         for (index, light) in self.lights(frame).enumerate() {
@@ -229,9 +241,17 @@ impl World {
 impl Placed {
     /// Moves everything to where it is in a frame.
     pub fn walk(&mut self, gpu: &Gpu, moment: &Moment) -> Result<(), StressError> {
-        self.deformer.prepare(&gpu.device, &gpu.queue, &inputs(&self.flexible, &moment.poses))?;
+        for (flexible, pose) in self.flexible.iter().zip(&moment.poses) {
+            set_pose(&mut self.deformer, flexible.deformed, pose)?;
+        }
+        self.deformer.prepare(&gpu.device, &gpu.queue)?;
         for (caster, place) in self.casters.iter().zip(&moment.casters) {
             self.shadows.place_caster(*caster, place)?;
+        }
+        for flexible in &self.flexible {
+            if let Some(known) = self.deformer.known(flexible.deformed) {
+                self.shadows.note_positions(flexible.caster, &known)?;
+            }
         }
         for (handle, light) in self.lights.iter().zip(&moment.lights) {
             self.shadows.set_light(*handle, light)?;
@@ -242,7 +262,7 @@ impl Placed {
 
     /// Where the positions of the casters that deform are, in their order.
     pub fn flexible_positions(&self) -> impl Iterator<Item = Positions> {
-        self.flexible.iter().filter_map(|handle| self.deformer.positions(*handle))
+        self.flexible.iter().filter_map(|flexible| self.deformer.positions(flexible.deformed))
     }
 }
 
@@ -254,11 +274,7 @@ fn show_eye(shadows: &mut Shadows, handle: LightHandle, light: &Light, eye: &Eye
     }
 }
 
-fn inputs<'a>(flexible: &[DeformHandle], poses: &'a [PartPose]) -> Vec<DeformInput<'a>> {
-    let input = |(caster, pose): (&DeformHandle, &'a PartPose)| DeformInput {
-        caster: *caster,
-        joint_matrices: &pose.joint_matrices,
-        morph_weights: &pose.morph_weights,
-    };
-    flexible.iter().zip(poses).map(input).collect()
+fn set_pose(deformer: &mut Deformer, caster: DeformHandle, pose: &PartPose) -> Result<(), StressError> {
+    let PartPose { joint_matrices, morph_weights, .. } = pose;
+    Ok(deformer.set_pose(&DeformInput { caster, joint_matrices, morph_weights })?)
 }
