@@ -40,8 +40,10 @@ pub struct StressOptions {
     pub triangles_per_caster: usize,
     /// What changes from frame to frame. Default: lights and casters walk.
     pub motion: Motion,
-    /// How long frames are drawn; one is drawn in any case. Default: 5 s.
+    /// How long frames are drawn. Default: 5 s.
     pub duration: Duration,
+    /// As many are drawn in any case. Range: at least 1. Default: 1.
+    pub least_frames: u64,
     /// How shadows are made, but for what each light has of its own.
     pub settings: ShadowSettings,
     /// Techniques: where each light has its own, three of five have smoothies, and the others take turns in the other
@@ -67,6 +69,7 @@ impl Default for StressOptions {
             triangles_per_caster: 1000,
             motion: Motion::default(),
             duration: Duration::from_secs(5),
+            least_frames: 1,
             settings: ShadowSettings::default(),
             techniques: Variety::default(),
             map_sizes: Variety::default(),

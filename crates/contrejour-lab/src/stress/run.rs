@@ -62,7 +62,7 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
     let mut verifier = Verifier::new(&world);
     let mut submissions = VecDeque::new();
     let mut watch = Stopwatch::start(options.duration);
-    while summary.frames == 0 || !watch.is_over() {
+    while summary.frames < options.least_frames.max(1) || !watch.is_over() {
         let frame = summary.frames + 1;
         watch.begin_frame();
         submissions.push_back(draw(gpu, &world, &mut placed, frame, &mut costs)?);

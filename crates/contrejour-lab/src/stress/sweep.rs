@@ -22,6 +22,9 @@ pub enum SweepAxis {
     Triangles,
 }
 
+/// Frames that are drawn with each value: the middle one of fewer says little.
+const LEAST_FRAMES: u64 = 15;
+
 /// Triangles of all casters together that a sweep goes up to.
 const TRIANGLES_MAX: usize = 2_000_000;
 
@@ -39,10 +42,12 @@ impl SweepAxis {
     }
 
     /// The values that are tried, ascending: as far as all casters together have at most two million triangles. All lights
-    /// have the same settings, so that one differs from the next by what is varied alone.
+    /// have the same settings, so that one differs from the next by what is varied alone, and each run has frames enough for
+    /// their middle one to say something.
     fn options(self, base: &StressOptions) -> Vec<StressOptions> {
         let same = Variety::Same;
-        let base = &StressOptions { techniques: same, map_sizes: same, softness: same, ..base.clone() };
+        let least_frames = base.least_frames.max(LEAST_FRAMES);
+        let base = &StressOptions { techniques: same, map_sizes: same, softness: same, least_frames, ..base.clone() };
         let values: &[usize] = match self {
             Self::Lights => &[1, 2, 4, 8, 16, 32],
             Self::Casters => &[1, 4, 16, 64, 256],
