@@ -1,14 +1,16 @@
 //! The casters of a scene: where they stand, and their records.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
-use contrejour_layout::{BLOCK_SIZE, CASTER_NEVER, CasterPlace};
-use contrejour_plan::{BufferKind, CasterFacts, ObjectBox, PoolHoles, caster_place};
+use contrejour_layout::{BLOCK_SIZE, CasterPlace};
+use contrejour_plan::{BufferKind, CasterFacts, PoolHoles};
 use glam::DMat4;
 
+use crate::caster_places::Extent;
 use crate::error::CasterError;
 use crate::live_positions::{LivePositions, live_positions};
-use crate::pool::{MeshHandle, MeshPool, PooledMesh};
+use crate::pool::{MeshHandle, MeshPool};
 use crate::ranges::Ranges;
 use crate::slots::{Key, Slots};
 
@@ -74,11 +76,10 @@ pub(crate) struct PlacedCaster {
     pub mesh: MeshHandle,
     /// Where positions are the caller's.
     pub live: Option<LivePositions>,
-    world_from_object: DMat4,
-    place: CasterPlace,
-    /// Box and matrix; `None` where nobody knows them.
-    bounds: Option<ObjectBox>,
-    has_faces: bool,
+    pub world_from_object: DMat4,
+    /// Where the latest frame has it.
+    pub extent: Extent,
+    pub has_faces: bool,
     /// Whether it has no faces, or a mask cuts them.
     is_named: bool,
     pub blocks: BlockPlaces,
@@ -104,10 +105,18 @@ pub(crate) struct Casters {
     pub(super) left: Vec<BlockPlaces>,
     /// Whether casters came or went since then.
     pub(super) has_changed: bool,
-    /// Slots whose places are to be uploaded, in any order; some maybe twice.
-    moved: Vec<usize>,
-    /// Boxes that something was in or is in since the last upload; `None` is everywhere.
-    touched: Vec<Option<ObjectBox>>,
+    /// Slots of casters that came, went, moved or deformed since the last frame, in any order; some maybe twice.
+    pub(super) moved: Vec<usize>,
+    /// Records of where casters stand, by slot.
+    pub(super) places: Vec<CasterPlace>,
+    /// Slots whose records are to be uploaded.
+    pub(super) stale_places: Vec<usize>,
+    /// Where something was or is since the last upload.
+    pub(super) touched: Vec<Extent>,
+    /// Slots of casters with positions of their own.
+    pub(super) live: BTreeSet<usize>,
+    /// Slots of casters whose matrix is singular.
+    pub(super) singular: BTreeSet<usize>,
 }
 
 impl Casters {
@@ -120,16 +129,13 @@ impl Casters {
             mesh: input.mesh,
             live: live_positions(input, mesh)?,
             world_from_object: input.world_from_object,
-            place: CasterPlace::default(),
-            bounds: None,
+            extent: Extent::Nowhere,
             has_faces: !mesh.topology.faces.is_empty(),
             is_named: mesh.topology.faces.is_empty() || mesh.is_masked(),
             blocks: BlockPlaces::default(),
             is_new: true,
         };
-        caster.stand(mesh);
         caster.take_places(meshes, [&mut self.face_blocks, &mut self.edge_blocks]);
-        self.touched.push(caster.bounds);
         self.has_changed = true;
         let key = self.slots.insert(caster);
         self.moved.push(key.slot);
@@ -139,19 +145,10 @@ impl Casters {
     /// # Errors
     ///
     /// The caster is not one of these.
-    pub fn place(
-        &mut self,
-        handle: CasterHandle,
-        world_from_object: &DMat4,
-        meshes: &MeshPool,
-    ) -> Result<(), CasterError> {
+    pub fn place(&mut self, handle: CasterHandle, world_from_object: &DMat4) -> Result<(), CasterError> {
         let caster = self.slots.get_mut(handle.0).ok_or(CasterError::UnknownCaster { caster: handle })?;
-        let Some(mesh) = meshes.get(caster.mesh) else { return Err(CasterError::UnknownMesh { mesh: caster.mesh }) };
-        let before = (caster.place, caster.bounds);
-        caster.world_from_object = *world_from_object;
-        caster.stand(mesh);
-        if caster.place != before.0 {
-            self.touched.extend([before.1, caster.bounds]);
+        if caster.world_from_object != *world_from_object {
+            caster.world_from_object = *world_from_object;
             self.moved.push(handle.0.slot);
         }
         Ok(())
@@ -162,22 +159,11 @@ impl Casters {
     /// # Errors
     ///
     /// The caster is not one of these or has the positions of its mesh, or the box is none.
-    pub fn note_positions(
-        &mut self,
-        handle: CasterHandle,
-        known: &KnownPositions,
-        meshes: &MeshPool,
-    ) -> Result<(), CasterError> {
+    pub fn note_positions(&mut self, handle: CasterHandle, known: &KnownPositions) -> Result<(), CasterError> {
         let caster = self.slots.get_mut(handle.0).ok_or(CasterError::UnknownCaster { caster: handle })?;
-        let Some(mesh) = meshes.get(caster.mesh) else { return Err(CasterError::UnknownMesh { mesh: caster.mesh }) };
         let live = caster.live.as_mut().ok_or(CasterError::PositionsOfMesh { caster: handle })?;
         if live.take_over(known)? {
-            let before = (caster.place, caster.bounds);
-            caster.stand(mesh);
-            self.touched.extend([before.1, caster.bounds]);
-            if caster.place != before.0 {
-                self.moved.push(handle.0.slot);
-            }
+            self.moved.push(handle.0.slot);
         }
         Ok(())
     }
@@ -195,7 +181,7 @@ impl Casters {
         self.edge_blocks.give_back(edges.start, edges.end - edges.start);
         self.left.push(caster.blocks);
         self.has_changed = true;
-        self.touched.push(caster.bounds);
+        self.touched.push(caster.extent);
         self.moved.push(handle.0.slot);
         Ok(())
     }
@@ -252,39 +238,6 @@ impl Casters {
         };
         self.slots.iter().map(facts).collect()
     }
-
-    /// Casters with a face whose matrix is singular.
-    pub fn singular_count(&self) -> u32 {
-        self.slots.iter().filter(|(_, caster)| caster.has_faces && caster.place.casts == CASTER_NEVER).count() as u32
-    }
-
-    /// Whether some positions may be others in each frame, and nobody knows.
-    pub fn have_unknown_positions(&self) -> bool {
-        self.slots.iter().any(|(_, caster)| caster.live.as_ref().is_some_and(LivePositions::are_unknown))
-    }
-
-    /// Boxes that something was in or is in since they were last taken; `None` is everywhere.
-    pub fn touched(&self) -> &[Option<ObjectBox>] {
-        &self.touched
-    }
-
-    /// Lets all places be uploaded again.
-    pub fn move_all(&mut self) {
-        self.moved = self.slots.iter().map(|(slot, _)| slot).collect();
-    }
-
-    /// Hands out the places that changed, as runs of records with their first slot, and forgets what was touched.
-    pub fn take_moved(&mut self, mut upload: impl FnMut(usize, &[CasterPlace])) {
-        self.touched.clear();
-        self.moved.sort_unstable();
-        self.moved.dedup();
-        for run in self.moved.chunk_by(|slot, next| slot + 1 == *next) {
-            let place = |slot: &usize| self.slots.at(*slot).map_or(CasterPlace::default(), |caster| caster.place);
-            let places: Vec<_> = run.iter().map(place).collect();
-            upload(run[0], &places);
-        }
-        self.moved.clear();
-    }
 }
 
 impl PlacedCaster {
@@ -299,21 +252,6 @@ impl PlacedCaster {
         };
         self.blocks.faces = take(face_blocks, block_count(mesh.facts.faces));
         self.blocks.edges = take(edge_blocks, block_count(mesh.topology.candidate_edge_count));
-    }
-
-    /// Makes its record and its box.
-    fn stand(&mut self, mesh: &PooledMesh) {
-        let world_from_object = self.world_from_object;
-        let bounds = match &self.live {
-            Some(live) => live.bounds(),
-            None => Some([mesh.topology.bounds_min, mesh.topology.bounds_max]),
-        };
-        self.bounds = bounds.map(|[min, max]| ObjectBox { min, max, world_from_object });
-        self.place = if self.has_faces {
-            caster_place(&world_from_object, &mesh.near_one, bounds)
-        } else {
-            CasterPlace { casts: CASTER_NEVER, ..CasterPlace::default() }
-        };
     }
 }
 

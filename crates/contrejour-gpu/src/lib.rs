@@ -6,6 +6,7 @@
 //! function for forward renderers ([`Shadows::visibility_wgsl`]), a full-screen visibility texture for deferred ones
 //! ([`Shadows::encode_visibility`]), or the [maps](Shadows::maps) and [buffers](Shadows::buffer) themselves.
 
+mod caster_places;
 mod caster_tables;
 mod casters;
 mod compute;

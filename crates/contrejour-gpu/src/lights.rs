@@ -3,9 +3,10 @@
 use contrejour_layout::{Counters, LightView, ReceiverView, VIEW_CULLS};
 use contrejour_plan::{
     BufferKind, BufferPlan, Capacity, CascadeError, DeviceFacts, Eye, FramePlan, FrameViews, LeftOut, Light, LightKind,
-    ObjectBox, Omitted, Outputs, PlanError, PlanInput, Reason, SceneFacts, Stage, View, ViewChoice, frame_views,
+    Omitted, Outputs, PlanError, PlanInput, Reason, SceneFacts, Stage, View, ViewChoice, frame_views,
 };
 
+use crate::caster_places::Extent;
 use crate::error::ShadowLightError;
 use crate::frame::{Frame, Made, Recorded};
 use crate::inputs::ShadowOptions;
@@ -176,11 +177,14 @@ impl LightState {
         self.is_due = true;
     }
 
-    /// Notes that something was or is in these boxes, everywhere where a box is `None`.
-    pub fn note_touched(&mut self, touched: &[Option<ObjectBox>]) {
-        let sees = |bounds: &Option<ObjectBox>| {
-            let Some(bounds) = bounds else { return true };
-            self.seen.views.iter().any(|view| view.can_see(bounds, view.reach_ndc(&self.options.settings)))
+    /// Notes where something was or is.
+    pub fn note_touched(&mut self, touched: &[Extent]) {
+        let sees = |extent: &Extent| match extent {
+            Extent::Nowhere => false,
+            Extent::Everywhere => true,
+            Extent::Box(bounds) => {
+                self.seen.views.iter().any(|view| view.can_see(bounds, view.reach_ndc(&self.options.settings)))
+            }
         };
         // The list of silhouette edges does not end where the maps do.
         let is_everywhere = self.options.outputs == Outputs::Silhouettes && !touched.is_empty();

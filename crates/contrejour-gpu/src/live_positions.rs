@@ -92,7 +92,8 @@ impl Casters {
     /// lies side by side both there and in the pool is one copy, so those of a deformer are few.
     pub fn take_live_copies(&mut self) -> Vec<LiveCopy> {
         let mut copies: Vec<LiveCopy> = Vec::new();
-        for live in self.slots.iter_mut().filter_map(|(_, caster)| caster.live.as_mut()) {
+        for &slot in &self.live {
+            let Some(live) = self.slots.at_mut(slot).and_then(|caster| caster.live.as_mut()) else { continue };
             if std::mem::replace(&mut live.is_copied, live.known.is_some()) {
                 continue;
             }
@@ -113,7 +114,8 @@ impl Casters {
 
     /// Lets all of the caller's positions be copied again.
     pub fn copy_all(&mut self) {
-        self.slots.iter_mut().filter_map(|(_, caster)| caster.live.as_mut()).for_each(|live| live.is_copied = false);
+        let live = self.slots.iter_mut().filter_map(|(_, caster)| caster.live.as_mut());
+        live.for_each(|live| live.is_copied = false);
     }
 }
 

@@ -35,6 +35,7 @@ impl Shadows {
         }
         self.collect_counters();
         self.stats.set_up_bytes = 0;
+        self.casters.stand(&self.meshes);
         if self.is_stale {
             let plans = self.plans_of_packed()?;
             self.follow(device, queue, plans)?;

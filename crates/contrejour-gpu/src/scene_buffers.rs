@@ -107,7 +107,7 @@ impl SceneBuffers {
         upload.tables(&mut self.tables, &stale, self.has_edges);
         let bytes = upload.bytes;
         if stale.empty.contains(&(BufferKind::CasterPlaces, 0)) {
-            casters.move_all();
+            casters.upload_all_places();
         }
         if stale.empty.contains(&(BufferKind::Positions, 0)) {
             casters.copy_all();
@@ -143,7 +143,7 @@ impl SceneBuffers {
         let mut bytes = 0;
         let buffer = self.shared.find(BufferKind::CasterPlaces, 0);
         let room = buffer.map_or(0, |buffer| buffer.size() as usize / size_of::<CasterPlace>());
-        casters.take_moved(|slot, places| {
+        casters.take_places(|slot, places| {
             // A caster that was the last one may have left no room behind.
             let data: &[u8] = bytemuck::cast_slice(&places[..places.len().min(room.saturating_sub(slot))]);
             if let Some(buffer) = buffer.filter(|_| !data.is_empty()) {

@@ -154,7 +154,7 @@ impl Shadows {
     ///
     /// There is no such caster.
     pub fn place_caster(&mut self, caster: CasterHandle, world_from_object: &DMat4) -> Result<(), CasterError> {
-        self.casters.place(caster, world_from_object, &self.meshes)
+        self.casters.place(caster, world_from_object)
     }
 
     /// Says which positions a caster's own buffer holds, and where. To be called when they change, or in each frame: what is
@@ -164,7 +164,7 @@ impl Shadows {
     ///
     /// There is no such caster, it has the positions of its mesh, or the box is none; then nothing has changed.
     pub fn note_positions(&mut self, caster: CasterHandle, known: &KnownPositions) -> Result<(), CasterError> {
-        self.casters.note_positions(caster, known, &self.meshes)
+        self.casters.note_positions(caster, known)
     }
 
     /// Removes a caster. Its handle names nothing any more.
