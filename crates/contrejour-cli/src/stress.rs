@@ -38,6 +38,7 @@ pub fn run(arguments: &StressArguments) -> Result<ExitCode, Failure> {
         softness: own(false),
         verify: arguments.verify,
         seed: arguments.seed,
+        ..StressOptions::default()
     };
     #[cfg(feature = "window")]
     if arguments.window {

@@ -31,7 +31,7 @@ pub struct StressArguments {
     #[arg(long)]
     pub still: bool,
 
-    /// How long frames are drawn
+    /// How long frames are drawn; a sweep draws 15 with each value in any case
     #[arg(long, value_name = "S", default_value = "5", value_parser = parse_duration)]
     pub seconds: f64,
 
