@@ -11,7 +11,7 @@ mod texture;
 mod topology;
 mod triangle_mesh;
 
-pub use camera_and_light::{FileCamera, FileLight, FileLightKind};
+pub use camera_and_light::{FileCamera, FileLight, FileLightKind, OutlookError};
 pub use load::*;
 pub use mask::*;
 pub use planes::FacePlanes;

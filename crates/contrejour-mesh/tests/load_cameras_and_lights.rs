@@ -43,7 +43,8 @@ fn is_near(a: DVec3, b: DVec3) -> bool {
 fn a_camera_stands_where_its_node_is() {
     let file = with_camera(json!({"yfov": 0.5, "znear": 0.25, "zfar": 100})).loaded();
     assert!(file.warnings.is_empty(), "{:?}", file.warnings);
-    let FileCamera { name, eye, forward, up, fov_y, near, far } = only(&file.cameras);
+    let FileCamera { name, node, eye, forward, up, fov_y, near, far } = only(&file.cameras);
+    assert_eq!(node, 1);
     assert_eq!((name.as_str(), eye, fov_y, near, far), ("door", DVec3::new(1.0, 2.0, 3.0), 0.5, 0.25, Some(100.0)));
     assert!(is_near(forward, DVec3::NEG_X) && is_near(up, DVec3::Y), "{forward} {up}");
     assert_eq!(only(&with_camera(json!({"yfov": 0.5, "znear": 0.25})).loaded().cameras).far, None);
@@ -69,6 +70,7 @@ fn lights_have_their_own_units() {
         lamp,
         FileLight {
             name: String::new(),
+            node: 1,
             kind: FileLightKind::Point { position: DVec3::new(1.0, 2.0, 3.0) },
             color: [1.0; 3],
             intensity: 1.0,

@@ -16,6 +16,7 @@ use crate::gpu::Gpu;
 use crate::local_space::LocalSpace;
 use crate::posed_normals::PosedNormals;
 use crate::renderer::Renderer;
+use crate::scene_lights::MoveError;
 use crate::scene_meshes::PosedDraw;
 
 /// Why a scene does not move.
@@ -30,6 +31,9 @@ pub enum AnimationError {
     /// A frame has no pose.
     #[error(transparent)]
     Pose(#[from] PoseError),
+    /// A light is none in a pose.
+    #[error(transparent)]
+    Move(#[from] MoveError),
     /// The pose does not fit its mesh.
     #[error(transparent)]
     SetPose(#[from] SetPoseError),
@@ -77,8 +81,8 @@ impl Renderer {
     ///
     /// [`NewRendererError`] when something does not fit on the device.
     pub fn new_animated(gpu: Gpu, animated: &AnimatedScene) -> Result<Self, NewRendererError> {
-        let poses = animated.pose(animated.time(0)).map_err(AnimationError::from)?;
-        Self::new_posed(gpu, &animated.scene, animated, &poses)
+        let frame = animated.frame(animated.time(0)).map_err(AnimationError::from)?;
+        Self::new_posed(gpu, &animated.scene, animated, &frame.poses)
     }
 
     /// Uploads a scene whose first meshes stand in these poses.
@@ -104,13 +108,19 @@ impl Renderer {
         Ok(renderer)
     }
 
-    /// Poses a scene in motion for the frames that follow; `time` is in seconds.
+    /// Poses a scene in motion for the frames that follow, with its camera and its lights; `time` is in seconds.
     ///
     /// # Errors
     ///
-    /// [`AnimationError`] when a number overflows or the device fails.
+    /// [`AnimationError`] when a number overflows, a light is none in this pose, or the device fails.
     pub fn pose(&mut self, animated: &AnimatedScene, time: f64) -> Result<(), AnimationError> {
-        self.pose_meshes(&animated.scene, &animated.pose(time)?)
+        let frame = animated.frame(time)?;
+        self.pose_meshes(&animated.scene, &frame.poses)?;
+        self.set_camera(&frame.camera);
+        for (index, light) in frame.lights.iter().enumerate() {
+            self.set_light(index, light)?;
+        }
+        Ok(())
     }
 
     /// Poses the first meshes of the scene for the frames that follow. Joint matrices and weights go to the device, and, for

@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use contrejour_mesh::{
-    AnimatedModel, Animation, DeformingMesh, LoadError, PartPose, PoseError, TriangleMesh, UnknownAnimation,
+    AnimatedModel, Animation, DeformingMesh, LoadError, PartPose, Pose, PoseError, TriangleMesh, UnknownAnimation,
     load_animated,
 };
+use contrejour_plan::Light;
 use glam::DVec3;
 
 use crate::file_scene::{FileView, UnknownCamera};
 use crate::scene::placed_meshes;
-use crate::{Bounds, MeshSource, Scene};
+use crate::{Bounds, Camera, MeshSource, Scene};
 
 /// Times that a scene is fitted to, at most.
 const MOST_FITTED: u32 = 256;
@@ -24,6 +25,21 @@ pub struct AnimatedScene {
     model: AnimatedModel,
     animation: usize,
     times: FrameTimes,
+    /// The file's camera and lights at rest.
+    view: FileView,
+    /// Around all meshes in all frames.
+    bounds: Bounds,
+}
+
+/// Where everything of a scene is at a time.
+#[derive(Clone, Debug)]
+pub struct SceneFrame {
+    /// Poses of the scene's first meshes.
+    pub poses: Vec<PartPose>,
+    /// Its camera.
+    pub camera: Camera,
+    /// Its lights, in their order.
+    pub lights: Vec<Light>,
 }
 
 /// The times of the frames.
@@ -90,7 +106,7 @@ pub enum AnimatedSceneError {
 
 impl AnimatedScene {
     /// Loads a mesh file and sets up the frames of one of its animations, seen by one of its cameras: the first, or the one
-    /// of a name. Cameras and lights stand where they are at rest.
+    /// of a name. Cameras and lights go with their nodes; the exposure is that of the first frame.
     ///
     /// # Errors
     ///
@@ -108,27 +124,26 @@ impl AnimatedScene {
         let duration = model.rig.animation(animation).map_err(unknown)?.duration;
         let is_named = |known: &Animation| known.name == animation;
         let animation = model.rig.animations.iter().position(is_named).unwrap_or_default();
-        let poses_at = |time| {
-            let poses = poses(&model, &model.rig.animations[animation], time);
-            poses.map_err(|source| AnimatedSceneError::Pose { path: path.into(), source })
-        };
+        let posed = |source| AnimatedSceneError::Pose { path: path.into(), source };
+        let pose_at = |time| model.rig.pose(Some(&model.rig.animations[animation]), time).map_err(posed);
 
         let mut bounds = Bounds::EMPTY;
         for time in times.fitted(duration) {
-            bounds = bounds.union(bounds_of(&model, &poses_at(time)?));
+            bounds = bounds.union(bounds_of(&model, &part_poses(&model, &pose_at(time)?)));
         }
         let mut meshes = placed_meshes(model.file.clone(), &MeshSource::File(path.to_owned()));
-        let first_poses = poses_at(times.time(0, duration))?;
-        for ((mesh, pose), part) in meshes.iter_mut().zip(&first_poses).zip(&model.rig.parts) {
+        let first_time = times.time(0, duration);
+        let first = pose_at(first_time)?;
+        for ((mesh, pose), part) in meshes.iter_mut().zip(&part_poses(&model, &first)).zip(&model.rig.parts) {
             mesh.world_from_object = pose.world_from_object;
             if let Some(deforming) = &part.deforming {
                 let positions = deforming.posed(pose).iter().map(|position| position.as_vec3().to_array()).collect();
                 mesh.mesh = Arc::new(TriangleMesh { positions, ..(*mesh.mesh).clone() });
             }
         }
-        let mut scene = view.scene(meshes, bounds);
+        let mut scene = view.posed(&first, first_time).map_err(posed)?.scene(meshes, bounds);
         scene.warnings.splice(0..0, model.file.warnings.iter().cloned());
-        Ok(Self { scene, model, animation, times })
+        Ok(Self { scene, model, animation, times, view, bounds })
     }
 
     /// Time of a frame, in seconds.
@@ -141,13 +156,19 @@ impl AnimatedScene {
         &self.model.rig.animations[self.animation]
     }
 
-    /// The poses of the scene's first meshes at a time, in seconds.
+    /// Where everything is at a time, in seconds.
     ///
     /// # Errors
     ///
-    /// A number overflows.
-    pub fn pose(&self, time: f64) -> Result<Vec<PartPose>, PoseError> {
-        poses(&self.model, self.animation(), time)
+    /// A number overflows, or a camera or a light is left without a direction.
+    pub fn frame(&self, time: f64) -> Result<SceneFrame, PoseError> {
+        let pose = self.model.rig.pose(Some(self.animation()), time)?;
+        let (camera, mut lights) = self.view.posed(&pose, time)?.seen_and_lit(self.bounds);
+        if lights.is_empty() {
+            lights = self.scene.lights.iter().map(|light| light.light).collect();
+        }
+        let camera = camera.unwrap_or(self.scene.camera);
+        Ok(SceneFrame { poses: part_poses(&self.model, &pose), camera, lights })
     }
 
     /// What moves the vertices of a mesh of the scene against each other; none where nothing does.
@@ -161,10 +182,8 @@ impl AnimatedScene {
     }
 }
 
-fn poses(model: &AnimatedModel, animation: &Animation, time: f64) -> Result<Vec<PartPose>, PoseError> {
-    let rig = &model.rig;
-    let pose = rig.pose(Some(animation), time)?;
-    Ok(rig.parts.iter().map(|part| rig.part_pose(part, &pose)).collect())
+fn part_poses(model: &AnimatedModel, pose: &Pose) -> Vec<PartPose> {
+    model.rig.parts.iter().map(|part| model.rig.part_pose(part, pose)).collect()
 }
 
 /// The box around all meshes of a pose, in world space.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use contrejour_mesh::{FileCamera, FileLight, FileLightKind, MeshFile};
+use contrejour_mesh::{FileCamera, FileLight, FileLightKind, MeshFile, Pose, PoseError};
 use contrejour_plan::{Light, LightKind, ShadowSettings};
 use glam::DVec3;
 
@@ -53,6 +53,25 @@ impl FileView {
             },
         };
         Ok(Self { camera: file.cameras.get(index).cloned(), lights: file.lights.clone() })
+    }
+
+    /// The same where the nodes are in a pose.
+    pub fn posed(&self, pose: &Pose, time: f64) -> Result<Self, PoseError> {
+        let at = |node: usize| move |source| PoseError::Outlook { node, time, source };
+        let matrix = |node: usize| &pose.world_from_nodes[node];
+        let camera = self.camera.as_ref().map(|seen| seen.seen_from(matrix(seen.node)).map_err(at(seen.node)));
+        let lights = self.lights.iter().map(|light| light.shining_from(matrix(light.node)).map_err(at(light.node)));
+        Ok(Self { camera: camera.transpose()?, lights: lights.collect::<Result<_, _>>()? })
+    }
+
+    /// The camera and the lights alone of the scene that it makes; none of what the file does not bring.
+    pub fn seen_and_lit(&self, bounds: Bounds) -> (Option<Camera>, Vec<Light>) {
+        let bounds = with_some_size(bounds);
+        let used = &self.lights[..self.lights.len().min(Scene::MAX_LIGHTS)];
+        // They were told when the scene was made.
+        let mut warnings = Vec::new();
+        let lights = used.iter().map(|light| shining(light, &bounds, &mut warnings).light).collect();
+        (self.camera.as_ref().map(|camera| seen_by(camera, &bounds)), lights)
     }
 
     /// A scene of the file's meshes. What a file with a camera or lights does not bring is as it is around a lone mesh,
@@ -171,6 +190,7 @@ mod tests {
     fn camera(name: &str) -> FileCamera {
         FileCamera {
             name: name.to_owned(),
+            node: 0,
             eye: DVec3::new(0.0, 1.0, 5.0),
             forward: DVec3::NEG_Z,
             up: DVec3::Y,
@@ -181,7 +201,7 @@ mod tests {
     }
 
     fn light(kind: FileLightKind) -> FileLight {
-        FileLight { name: String::new(), kind, color: [1.0, 0.5, 0.25], intensity: 100.0, range: Some(20.0) }
+        FileLight { name: String::new(), node: 0, kind, color: [1.0, 0.5, 0.25], intensity: 100.0, range: Some(20.0) }
     }
 
     fn file(cameras: Vec<FileCamera>, lights: Vec<FileLight>) -> MeshFile {

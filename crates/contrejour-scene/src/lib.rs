@@ -20,7 +20,7 @@ pub mod shapes;
 mod texture;
 mod toml_text;
 
-pub use animated_scene::{AnimatedScene, AnimatedSceneError, FrameTimes};
+pub use animated_scene::{AnimatedScene, AnimatedSceneError, FrameTimes, SceneFrame};
 pub use assets::{MESH_ASSETS, MeshAsset};
 pub use bounds::Bounds;
 pub use built_in::{BUILT_IN_SCENES, BuiltInScene};

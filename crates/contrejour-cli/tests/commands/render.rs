@@ -34,6 +34,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("render::an_animation_is_a_picture_a_frame", an_animation_is_a_picture_a_frame),
         gpu_trial("render::what_a_mask_cuts_is_not_there", what_a_mask_cuts_is_not_there),
         gpu_trial("render::a_camera_of_the_file_sees_it", a_camera_of_the_file_sees_it),
+        gpu_trial("render::cameras_and_lights_go_with_their_nodes", cameras_and_lights_go_with_their_nodes),
         gpu_trial("render::the_object_has_its_keys", the_object_has_its_keys),
         gpu_trial("render::views_are_pictures", views_are_pictures),
         gpu_trial("render::all_views_of_a_light_are_written", all_views_are_written),
@@ -198,6 +199,51 @@ fn a_camera_of_the_file_sees_it() -> Outcome {
     folder.refuses("render face.gltf --camera roof", &["face.gltf", "roof", "\"front\", \"away\""])?;
     folder.refuses("render empty.toml --camera roof", &["empty.toml", "one camera"])?;
     folder.refuses("render boxes --camera roof", &["boxes", "one camera"])
+}
+
+/// A face, a camera and a light, of which some stand at a node that moves by 2 within two seconds.
+fn carried(children: &[usize]) -> Result<String, String> {
+    let mut file: Value = serde_json::from_str(&widening_face()).map_err(|error| error.to_string())?;
+    file["cameras"] = serde_json::json!([{ "type": "perspective", "perspective": { "yfov": 0.7, "znear": 0.1 } }]);
+    file["nodes"] = serde_json::json!([
+        { "children": children },
+        { "mesh": 0 },
+        { "camera": 0, "translation": [0.25, 0.25, 3] },
+        { "extensions": { "KHR_lights_punctual": { "light": 0 } }, "translation": [1, 1, 1], "rotation": [-0.38, 0.33, 0, 0.86] },
+    ]);
+    file["extensionsUsed"] = serde_json::json!(["KHR_lights_punctual"]);
+    let light = serde_json::json!({ "type": "spot", "intensity": 50, "spot": {} });
+    file["extensions"] = serde_json::json!({ "KHR_lights_punctual": { "lights": [light] } });
+    // The second vertex is moved as far as the node is at the end.
+    let keys =
+        serde_json::json!({ "bufferView": 0, "byteOffset": 36, "componentType": 5126, "type": "VEC3", "count": 2 });
+    file["accessors"].as_array_mut().ok_or("it has accessors")?.push(keys);
+    file["animations"] = serde_json::json!([{
+        "name": "carry",
+        "samplers": [{ "input": 2, "output": 4 }],
+        "channels": [{ "sampler": 0, "target": { "node": 0, "path": "translation" } }],
+    }]);
+    Ok(file.to_string())
+}
+
+/// Where all go together nothing changes; else something does, in a picture alone and in one of a sequence.
+fn cameras_and_lights_go_with_their_nodes() -> Outcome {
+    for (children, is_alike) in [(&[1, 2, 3][..], true), (&[1, 3], false), (&[1, 2], false), (&[2, 3], false)] {
+        let folder = Folder::with(&[("face.gltf", &carried(children)?)]);
+        let render = "render face.gltf --animation carry --size 64x40 --map-size 128";
+        folder.run(&format!("{render} --time 0 -o first.png")).stdout()?;
+        folder.run(&format!("{render} --time 2 -o last.png")).stdout()?;
+        // At 0 and 1 s.
+        folder.run(&format!("{render} --animate 2 -o frame-%d.png")).stdout()?;
+        let picture = |name: &str| std::fs::read(folder.path(name)).map_err(|error| error.to_string());
+        let alike = [picture("first.png")? == picture("last.png")?, picture("frame-0.png")? == picture("frame-1.png")?];
+        if alike != [is_alike; 2] {
+            return Err(format!("with nodes {children:?} pictures are alike: {alike:?}"));
+        }
+    }
+    let flat = carried(&[1, 2, 3])?.replace("\"path\":\"translation\"", "\"path\":\"scale\"");
+    let folder = Folder::with(&[("flat.gltf", &flat)]);
+    folder.refuses("render flat.gltf --animation carry --time 0 -o flat.png", &["flat.gltf", "node 2", "scale"])
 }
 
 fn the_object_has_its_keys() -> Outcome {

@@ -4,6 +4,7 @@ use glam::{DMat4, DVec3};
 
 use super::animation::ChannelTarget;
 use super::{Animation, NodeTransform, Rig, RigPart};
+use crate::OutlookError;
 
 /// All nodes at a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +36,16 @@ pub enum PoseError {
         node: usize,
         /// The time, in seconds.
         time: f64,
+    },
+    /// A node is where its camera or light can't look or shine from.
+    #[error("at {time} s the camera or light of node {node}: {source}")]
+    Outlook {
+        /// The node.
+        node: usize,
+        /// The time, in seconds.
+        time: f64,
+        /// Why it can't.
+        source: OutlookError,
     },
 }
 

@@ -10,12 +10,12 @@ use gltf::camera::Projection;
 use gltf::khr_lights_punctual::Kind;
 
 use super::nodes::node_place;
-use crate::{FileCamera, FileLight, FileLightKind, LoadError, MeshFile};
+use crate::{FileCamera, FileLight, FileLightKind, LoadError, MeshFile, OutlookError};
 
 /// Full vertical opening angles that make a picture.
 const FOV_Y_DEGREES: RangeInclusive<f64> = 0.01..=179.0;
 
-/// Coordinates beyond this leave no digits for what is seen.
+/// Depths beyond this leave no digits for what is seen.
 const FARTHEST: f64 = 1e15;
 
 /// Adds what a node has; a camera that is not in perspective is counted in `orthographic`.
@@ -28,17 +28,8 @@ pub(super) fn read_node(
 ) -> Result<(), LoadError> {
     let malformed =
         |problem: &str| LoadError::Malformed { path: path.into(), place: node_place(node), problem: problem.into() };
-    let position = world_from_node.w_axis.truncate();
-    let axis = |axis: DVec3, what: &str| {
-        // Scaled first, since squares of extreme axes leave the range.
-        let axis = axis / axis.abs().max_element();
-        axis.try_normalize()
-            .ok_or_else(|| malformed(&format!("its scale leaves {what} no direction; give one that is not 0")))
-    };
-    if (node.camera().is_some() || node.light().is_some()) && position.abs().max_element() > FARTHEST {
-        return Err(malformed("its camera or light is farther out than 1e15; move it nearer"));
-    }
-    let forward = |what| axis(-world_from_node.z_axis.truncate(), what);
+    let unseen = |what: &str, error: OutlookError| malformed(&format!("its {what}: {error}"));
+    let node_id = node.index();
     if let Some(camera) = node.camera() {
         match camera.projection() {
             Projection::Orthographic(_) => *orthographic += 1,
@@ -52,19 +43,17 @@ pub(super) fn read_node(
                 if !(near > 0.0 && near < FARTHEST && is_far) {
                     return Err(malformed("its camera's znear is not above 0, or zfar not beyond it; correct them"));
                 }
-                let forward = forward("its camera")?;
-                let up = axis(world_from_node.y_axis.truncate(), "its camera")?;
-                if up.cross(forward).length() < 1e-6 {
-                    return Err(malformed("its matrix leaves its camera no direction; correct it"));
-                }
                 let name = node.name().or(camera.name()).unwrap_or_default().to_owned();
-                file.cameras.push(FileCamera { name, eye: position, forward, up, fov_y, near, far });
+                let [eye, forward, up] = [DVec3::ZERO, DVec3::NEG_Z, DVec3::Y];
+                let camera = FileCamera { name, node: node_id, eye, forward, up, fov_y, near, far };
+                file.cameras.push(camera.seen_from(world_from_node).map_err(|error| unseen("camera", error))?);
             }
         }
     }
     if let Some(light) = node.light() {
+        let (position, direction) = (DVec3::ZERO, DVec3::NEG_Z);
         let kind = match light.kind() {
-            Kind::Directional => FileLightKind::Directional { direction: forward("its light")? },
+            Kind::Directional => FileLightKind::Directional { direction },
             Kind::Point => FileLightKind::Point { position },
             Kind::Spot { inner_cone_angle, outer_cone_angle } => {
                 let [inner, outer] = [inner_cone_angle, outer_cone_angle].map(f64::from);
@@ -73,12 +62,7 @@ pub(super) fn read_node(
                         "its light's cone angles are not 0 <= innerConeAngle < outerConeAngle <= pi / 2, or too narrow; correct them",
                     ));
                 }
-                FileLightKind::Spot {
-                    position,
-                    direction: forward("its light")?,
-                    inner_half_angle: inner,
-                    outer_half_angle: outer,
-                }
+                FileLightKind::Spot { position, direction, inner_half_angle: inner, outer_half_angle: outer }
             }
         };
         let (color, intensity) = (light.color(), f64::from(light.intensity()));
@@ -91,7 +75,8 @@ pub(super) fn read_node(
             return Err(malformed("its light's range is not above 0; correct it or leave it out"));
         }
         let name = node.name().or(light.name()).unwrap_or_default().to_owned();
-        file.lights.push(FileLight { name, kind, color, intensity, range });
+        let light = FileLight { name, node: node_id, kind, color, intensity, range };
+        file.lights.push(light.shining_from(world_from_node).map_err(|error| unseen("light", error))?);
     }
     Ok(())
 }
