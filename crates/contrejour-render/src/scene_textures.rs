@@ -61,18 +61,19 @@ impl SceneTextures {
 
 fn upload(gpu: &Gpu, picture: RgbaImage, cutoff: Option<f32>) -> wgpu::TextureView {
     let (width, height) = picture.dimensions();
+    // Where alpha cuts, levels have that of the mask which casts, and end where its levels do.
+    let alphas = cutoff.map(|cutoff| alpha_level(&picture).with_smaller(cutoff));
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("base colour"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: width.max(height).ilog2() + 1,
+        mip_level_count: alphas.as_ref().map_or(width.max(height).ilog2() + 1, |levels| levels.len() as u32),
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: FORMAT,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    // Where alpha cuts, smaller levels have that of the mask which casts.
-    let mut alphas = cutoff.map(|cutoff| alpha_level(&picture).with_smaller(cutoff)).unwrap_or_default().into_iter();
+    let mut alphas = alphas.unwrap_or_default().into_iter();
     let mut next = Some(picture);
     for level in 0..texture.mip_level_count() {
         let Some(mut texels) = next else { break };

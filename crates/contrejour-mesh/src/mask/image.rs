@@ -1,6 +1,6 @@
 //! The picture of a mask: alpha alone.
 
-use super::levels::MaskLevel;
+use super::levels::{MaskLevel, mask_level_sizes};
 use crate::{TextureFilter, TextureWrap};
 
 /// Alpha of a picture, and how it is looked up.
@@ -67,23 +67,14 @@ impl MaskImage {
         self.filter
     }
 
-    /// How many levels it has: itself, and smaller ones down to 1 texel.
-    pub const fn level_count(&self) -> u32 {
-        let [width, height] = self.size;
-        (if width > height { width } else { height }).ilog2() + 1
+    /// How many levels it has: itself and [smaller ones](mask_level_sizes).
+    pub fn level_count(&self) -> u32 {
+        mask_level_sizes(self.size).count() as u32
     }
 
     /// Bytes of all levels together, each from a multiple of 4 on.
     pub fn level_bytes(&self) -> u64 {
-        let mut bytes = 0;
-        let mut size = self.size;
-        loop {
-            bytes += (u64::from(size[0]) * u64::from(size[1])).next_multiple_of(4);
-            if size == [1, 1] {
-                return bytes;
-            }
-            size = size.map(|side| (side / 2).max(1));
-        }
+        mask_level_sizes(self.size).map(|[width, height]| u64::from(width * height).next_multiple_of(4)).sum()
     }
 
     /// The picture and its smaller levels, of which a cutoff leaves as large a share as of itself.
@@ -165,13 +156,12 @@ mod tests {
         let alphas: Vec<u8> = (0..64 * 48_u32).map(|texel| if texel * 7 % 5 == 0 { 230 } else { 0 }).collect();
         let image = MaskImage::new([64, 48], alphas, Default::default(), TextureFilter::Linear).expect("it is good");
         let levels = image.levels(0.5);
-        assert_eq!(levels.iter().map(|level| level.size).collect::<Vec<_>>()[..3], [[64, 48], [32, 24], [16, 12]]);
+        assert_eq!(levels.iter().map(|level| level.size).collect::<Vec<_>>(), [[64, 48], [32, 24], [16, 12]]);
         assert_eq!(levels.len() as u32, image.level_count());
-        assert_eq!(levels.last().map(|level| level.size), Some([1, 1]));
         let bytes: usize = levels.iter().map(|level| level.alphas.len().next_multiple_of(4)).sum();
         assert_eq!(bytes as u64, image.level_bytes());
         let share = levels[0].share_kept(0.5);
-        for level in &levels[..3] {
+        for level in &levels {
             let found = level.share_kept(0.5);
             assert!((found - share).abs() < 0.1, "{:?}: {found}, not {share}", level.size);
         }

@@ -11,12 +11,24 @@ pub struct MaskLevel {
     pub alphas: Vec<u8>,
 }
 
+/// Fewer texels than these are all left by a cutoff, or none of them, too often: no level has fewer but a picture itself.
+const LEAST_TEXELS: u32 = 64;
+
+/// The size of a mask and those of its smaller levels, each half of the one before.
+pub fn mask_level_sizes(size: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+    let smaller = |size: &[u32; 2]| {
+        let half = size.map(|side| (side / 2).max(1));
+        (half != *size && half[0] * half[1] >= LEAST_TEXELS).then_some(half)
+    };
+    std::iter::successors(Some(size), smaller)
+}
+
 /// How far from what was asked for a level's share may be, where its alphas are means.
 const MEANS_OFF_BY: f64 = 0.05;
 
 impl MaskLevel {
-    /// This picture and its smaller levels, down to 1 texel. Of each level a cutoff leaves as large a share of the area as of
-    /// the first.
+    /// This picture and its smaller levels, of [these sizes](mask_level_sizes). Of each level a cutoff leaves as large a share
+    /// of the area as of the first.
     ///
     /// Alphas are means that are scaled until it does (Castaño 2010, "Computing Alpha Mipmaps"): means alone would let leaves
     /// vanish with distance. Where no scale does it, as where the means of a lattice are all alike, each texel has the alpha
@@ -26,7 +38,7 @@ impl MaskLevel {
         let mut means: Vec<f32> = self.alphas.iter().map(|alpha| f32::from(*alpha)).collect();
         let mut size = self.size;
         let mut levels = vec![self];
-        while size != [1, 1] {
+        for next in mask_level_sizes(size).skip(1) {
             let [columns, rows] = size.map(halved);
             let mean = |row: &[(u32, f32)], column: &[(u32, f32)]| {
                 let mut sum = 0.0;
@@ -39,7 +51,7 @@ impl MaskLevel {
             };
             let row_of = |row: &Vec<(u32, f32)>| columns.iter().map(|column| mean(row, column)).collect::<Vec<_>>();
             means = rows.par_iter().flat_map_iter(row_of).collect();
-            size = [columns.len() as u32, rows.len() as u32];
+            size = next;
             let mut level = Self { size, alphas: means.iter().map(|mean| mean.round() as u8).collect() };
             level.keep_coverage(cutoff, share);
             if (level.share_kept(cutoff) - share).abs() > MEANS_OFF_BY {
@@ -184,13 +196,19 @@ mod tests {
             let share = first.share_kept(0.5);
             assert!((0.1..0.7).contains(&share), "{name}: {share}");
             for level in first.with_smaller(0.5) {
-                // A handful of texels has no other choice.
-                if level.alphas.len() >= 64 {
-                    let found = level.share_kept(0.5);
-                    assert!((found - share).abs() < 0.12, "{name}, {:?}: {found}, not {share}", level.size);
-                }
+                let found = level.share_kept(0.5);
+                assert!((found - share).abs() < 0.12, "{name}, {:?}: {found}, not {share}", level.size);
             }
         }
+    }
+
+    #[test]
+    fn levels_end_before_they_have_a_handful_of_texels() {
+        let sizes = |size| mask_level_sizes(size).collect::<Vec<_>>();
+        assert_eq!(sizes([32, 16]), [[32, 16], [16, 8]]);
+        assert_eq!(sizes([200, 1]), [[200, 1], [100, 1]]);
+        assert_eq!(sizes([7, 9]), [[7, 9]]);
+        assert_eq!(sizes([1, 1]), [[1, 1]]);
     }
 
     #[test]

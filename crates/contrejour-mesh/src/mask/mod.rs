@@ -4,7 +4,7 @@ mod image;
 mod levels;
 
 pub use image::{MaskImage, MaskImageError};
-pub use levels::{MaskLevel, halved};
+pub use levels::{MaskLevel, halved, mask_level_sizes};
 
 use std::sync::Arc;
 
