@@ -64,6 +64,11 @@ impl Progress {
         self.bar.inc(1);
     }
 
+    /// So many steps of what was begun are done.
+    pub fn reach(&self, steps: u64) {
+        self.bar.set_position(steps);
+    }
+
     pub fn done(&self) {
         self.bar.finish_and_clear();
     }

@@ -74,8 +74,15 @@ pub fn run(arguments: &StressArguments) -> Result<ExitCode, Failure> {
     Ok(if found.is_none() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENCE_FOUND) })
 }
 
+/// Steps of the bar of a run.
+const PROGRESS_STEPS: u64 = 1000;
+
 fn show(progress: &Progress, event: Event) {
-    let Event::Frame { frames, cpu_ms, verified_light_frames } = event;
+    let Event::Frame { frames, cpu_ms, verified_light_frames, done } = event;
+    if frames == 1 {
+        progress.begin(String::new(), PROGRESS_STEPS);
+    }
+    progress.reach((done * PROGRESS_STEPS as f64) as u64);
     progress.say(format!("frame {frames}: CPU {cpu_ms:.3} ms, {verified_light_frames} light-frames verified"));
 }
 

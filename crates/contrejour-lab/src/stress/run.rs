@@ -33,6 +33,8 @@ pub enum Event {
         cpu_ms: f64,
         /// Lights of frames that were verified so far.
         verified_light_frames: u64,
+        /// How much of the run is done, from 0 to 1.
+        done: f64,
     },
 }
 
@@ -82,6 +84,7 @@ pub fn run(gpu: &Gpu, options: &StressOptions, tell: &dyn Fn(Event)) -> Result<S
             frames: frame,
             cpu_ms: costs.cpu.last().copied().unwrap_or(0.0),
             verified_light_frames: verifier.light_frames,
+            done: watch.done().min(frame as f64 / options.least_frames.max(1) as f64),
         });
     }
     gpu.wait(None)?;

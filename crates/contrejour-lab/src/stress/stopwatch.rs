@@ -28,6 +28,11 @@ impl Stopwatch {
         self.begin.elapsed() >= self.duration
     }
 
+    /// How much of the time is over, from 0 to 1.
+    pub fn done(&self) -> f64 {
+        (self.begin.elapsed().as_secs_f64() / self.duration.as_secs_f64().max(f64::MIN_POSITIVE)).min(1.0)
+    }
+
     /// Begins a frame: what lies between two frames does not count.
     pub fn begin_frame(&mut self) {
         self.frame_begin = Instant::now();
