@@ -55,8 +55,7 @@ impl Casters {
 
     /// Whether some positions may be others in each frame, and nobody knows.
     pub fn have_unknown_positions(&self) -> bool {
-        let live = self.live.iter().filter_map(|&slot| self.slots.at(slot)?.live.as_ref());
-        live.into_iter().any(LivePositions::are_unknown)
+        self.live.iter().filter_map(|&slot| self.slots.at(slot)?.live.as_ref()).any(LivePositions::are_unknown)
     }
 
     /// Casters with a face whose matrix is singular.

@@ -125,15 +125,15 @@ impl DeformResources {
             let (what, size) = POOLS[index];
             maker.grown(what, old_pools[index].as_ref(), size * ends[index], index < MESH_POOLS)
         });
-        let [.., has_new_joints, has_new_weights] =
-            std::array::from_fn::<_, 5, _>(|index| old_pools[index].as_ref() != Some(&pools[index]));
-        if has_new_joints {
+        let are_new: PerPool<bool> = std::array::from_fn(|index| old_pools[index].as_ref() != Some(&pools[index]));
+        let has_new_pools = are_new.contains(&true);
+        let [.., joints_are_new, weights_are_new] = are_new;
+        if joints_are_new {
             pool.joint_matrices.change_all();
         }
-        if has_new_weights {
+        if weights_are_new {
             pool.morph_weights.change_all();
         }
-        let has_new_pools = pools.iter().zip(&old_pools).any(|(new, old)| old.as_ref() != Some(new));
         let all_words: u64 = pool.batches.iter().flatten().filter_map(|batch| batch.room).sum();
         let batches = pool.batches.iter_mut().zip(old_batches).map(|(batch, old)| {
             // Another one may have come to the place of one that left.
