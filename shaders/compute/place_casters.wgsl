@@ -1,11 +1,14 @@
-// Brings the light and its clip space into the space of each caster, and leaves out casters that the view can't see.
-// One invocation = one caster.
+// Brings the lights of a bundle and their clip spaces into the space of each caster, and leaves out casters that a view
+// can't see.
+// One invocation = one caster for one seat; the seat is the workgroup's z.
 // Reads caster_places; writes caster_lights, counters.casters, counters.imageless_casters.
 
-@group(0) @binding(0) var<uniform> view: LightView;
+@group(0) @binding(0) var<uniform> bundle: ViewBundle;
 @group(0) @binding(1) var<storage, read> caster_places: array<CasterPlace>;
 @group(0) @binding(2) var<storage, read_write> caster_lights: array<CasterLight>;
-@group(0) @binding(3) var<storage, read_write> counters: AtomicCounters;
+@group(0) @binding(3) var<storage, read_write> counters: array<AtomicSeatCounters>;
+
+var<private> seat: u32;
 
 const NO_IMAGE = mat4x4f();
 
@@ -15,8 +18,9 @@ fn place_casters(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
+    seat = group.z;
     let id = folded_invocation(group, groups, lane);
-    if id >= view.caster_count {
+    if id >= bundle.views[seat].caster_count {
         return;
     }
     var caster_light = CasterLight(vec4u(0u), NO_IMAGE, 0u, 0u, 0u, 0u);
@@ -25,14 +29,14 @@ fn place_casters(
         let matrix = clip_from_scaled(id);
         if is_finite(light) && may_be_seen(id, matrix) {
             caster_light = CasterLight(light, matrix, caster_places[id].mirrored, 1u, 0u, 0u);
-            atomicAdd(&counters.casters, 1u);
+            atomicAdd(&counters[seat].counts.casters, 1u);
             if !has_image(matrix) {
                 caster_light.light_clip_from_object = NO_IMAGE;
-                atomicAdd(&counters.imageless_casters, 1u);
+                atomicAdd(&counters[seat].counts.imageless_casters, 1u);
             }
         }
     }
-    caster_lights[id] = caster_light;
+    caster_lights[place_of_caster(seat, id)] = caster_light;
 }
 
 // Bits of the homogeneous light, rounded once. A point goes from the object's origin, so a mere translation is exact. A
@@ -69,7 +73,7 @@ fn light_in_object_space(id: u32) -> vec4u {
 }
 
 fn light_world(row: u32) -> Float64 {
-    let pair = view.light_world[row / 2u];
+    let pair = bundle.views[seat].light_world[row / 2u];
     return float64(select(pair.xy, pair.zw, (row & 1u) == 1u));
 }
 
@@ -106,7 +110,7 @@ fn clip_from_scaled(id: u32) -> mat4x4f {
 }
 
 fn clip_from_world(column: u32, row: u32) -> Float64 {
-    let pair = view.light_clip_from_world[2u * column + row / 2u];
+    let pair = bundle.views[seat].light_clip_from_world[2u * column + row / 2u];
     return float64(select(pair.xy, pair.zw, (row & 1u) == 1u));
 }
 
@@ -137,11 +141,11 @@ const DEPTH_GUARD_NDC = 1e-5;
 // Conservative: a box near the frustum's edge counts as seen, and so does one that nothing is known of. What is beyond a
 // plane is linear in clip space, so that the box's corners decide for all of it, also behind the light.
 fn may_be_seen(id: u32, matrix: mat4x4f) -> bool {
-    if (view.flags & VIEW_CULLS) == 0u || caster_places[id].casts != CASTER_IN_VIEW {
+    if (bundle.views[seat].flags & VIEW_CULLS) == 0u || caster_places[id].casts != CASTER_IN_VIEW {
         return true;
     }
-    let side = 1.0 + view.reach_ndc;
-    let has_front = (view.flags & VIEW_PANCAKES) == 0u;
+    let side = 1.0 + bundle.views[seat].reach_ndc;
+    let has_front = (bundle.views[seat].flags & VIEW_PANCAKES) == 0u;
     return !(is_beyond(id, matrix, vec4f(1.0, 0.0, 0.0, side))
         || is_beyond(id, matrix, vec4f(-1.0, 0.0, 0.0, side))
         || is_beyond(id, matrix, vec4f(0.0, 1.0, 0.0, side))

@@ -1,18 +1,18 @@
 // Decides by floats on their positions which of the faces are lit that planes leave undecided, as far as a proven bound
 // allows, and lists those that it does not decide.
-// One invocation = one face; one workgroup = two words of faces.
+// One invocation = one face for one view; one workgroup = two words of lit bits.
 // Reads recheck_words, casters, caster_lights, faces, positions, counters.recheck_words; writes lit, undecided,
-// counters.undecided_near and _far.
+// counters.undecided_near and _far, of the bundle and of each seat.
 
-@group(0) @binding(0) var<uniform> view: LightView;
+@group(0) @binding(0) var<uniform> bundle: ViewBundle;
 @group(0) @binding(1) var<storage, read> recheck_words: array<RecheckWord>;
 @group(0) @binding(2) var<storage, read> casters: array<Caster>;
 @group(0) @binding(3) var<storage, read> caster_lights: array<CasterLight>;
 @group(0) @binding(4) var<storage, read> faces: array<Face>;
 @group(0) @binding(5) var<storage, read> positions: array<u32>;
 @group(0) @binding(6) var<storage, read_write> lit: array<atomic<u32>>;
-@group(0) @binding(7) var<storage, read_write> undecided: array<FaceRef>;
-@group(0) @binding(8) var<storage, read_write> counters: AtomicCounters;
+@group(0) @binding(7) var<storage, read_write> undecided: array<FaceTest>;
+@group(0) @binding(8) var<storage, read_write> counters: array<AtomicSeatCounters>;
 
 alias Verdict = u32;
 const UNLIT: Verdict = 0u;
@@ -25,6 +25,8 @@ var<workgroup> group_near_count: atomic<u32>;
 var<workgroup> group_far_count: atomic<u32>;
 var<workgroup> group_near_base: u32;
 var<workgroup> group_far_base: u32;
+var<workgroup> seat_near_counts: array<atomic<u32>, MAX_SEATS>;
+var<workgroup> seat_far_counts: array<atomic<u32>, MAX_SEATS>;
 
 @compute @workgroup_size(64)
 fn recheck_faces(
@@ -36,41 +38,50 @@ fn recheck_faces(
     let index = folded_invocation(group, groups, lane);
     let slot = index / FACES_PER_WORD;
     let bit = index % FACES_PER_WORD;
-    let in_range = slot < atomicLoad(&counters.recheck_words);
+    let in_range = slot < atomicLoad(&counters[0].recheck_words);
     let word = recheck_words[select(0u, slot, in_range)];
     let caster = casters[word.caster];
-    let face_id = word.word * FACES_PER_WORD + bit;
+    let test = word.word * FACES_PER_WORD + bit;
+    let seat = seat_of(test);
     var verdict = UNLIT;
-    if in_range && (word.faces >> bit & 1u) == 1u {
-        verdict = classify(caster, caster_lights[word.caster], faces[caster.first_face + face_id]);
+    if in_range && (word.tests >> bit & 1u) == 1u {
+        let caster_light = caster_lights[place_of_caster(seat, word.caster)];
+        verdict = classify(caster, caster_light, faces[caster.first_face + face_of(test)]);
     }
     if verdict == LIT {
-        atomicOr(&lit[caster.first_lit_word + word.word], 1u << bit);
+        atomicOr(&lit[first_lit_word(caster) + word.word], 1u << bit);
     }
 
     // Find places in the lists.
     var rank = 0u;
     if verdict == UNDECIDED_NEAR {
         rank = atomicAdd(&group_near_count, 1u);
+        atomicAdd(&seat_near_counts[seat], 1u);
     } else if verdict == UNDECIDED_FAR {
         rank = atomicAdd(&group_far_count, 1u);
+        atomicAdd(&seat_far_counts[seat], 1u);
     }
     workgroupBarrier();
     let near_count = atomicLoad(&group_near_count);
     let far_count = atomicLoad(&group_far_count);
     if lane == 0u && near_count > 0u {
-        group_near_base = atomicAdd(&counters.undecided_near, near_count);
+        group_near_base = atomicAdd(&counters[0].undecided_near, near_count);
     }
     if lane == 0u && far_count > 0u {
-        group_far_base = atomicAdd(&counters.undecided_far, far_count);
+        group_far_base = atomicAdd(&counters[0].undecided_far, far_count);
+    }
+    if lane < bundle.shape.seat_count && near_count + far_count > 0u {
+        atomicAdd(&counters[lane].counts.undecided_near, atomicLoad(&seat_near_counts[lane]));
+        atomicAdd(&counters[lane].counts.undecided_far, atomicLoad(&seat_far_counts[lane]));
     }
     workgroupBarrier();
 
     // Write: near faces from the list's front, far ones from its back. The list has room for every face.
     let is_near = verdict == UNDECIDED_NEAR;
     let place = rank + select(group_far_base, group_near_base, is_near);
-    if verdict >= UNDECIDED && place < view.undecided_capacity {
-        undecided[select(view.undecided_capacity - 1u - place, place, is_near)] = FaceRef(word.caster, face_id);
+    let capacity = undecided_capacity();
+    if verdict >= UNDECIDED && place < capacity {
+        undecided[select(capacity - 1u - place, place, is_near)] = FaceTest(word.caster, test);
     }
 }
 

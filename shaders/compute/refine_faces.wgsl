@@ -1,10 +1,10 @@
 // Decides by short integers the undecided faces whose coordinates have exponents close together.
-// One invocation = one undecided face.
+// One invocation = one undecided face for one view.
 // Reads undecided, counters, casters, caster_lights, faces, positions; writes lit.
 
-@group(0) @binding(0) var<uniform> view: LightView;
-@group(0) @binding(1) var<storage, read> undecided: array<FaceRef>;
-@group(0) @binding(2) var<storage, read> counters: Counters;
+@group(0) @binding(0) var<uniform> bundle: ViewBundle;
+@group(0) @binding(1) var<storage, read> undecided: array<FaceTest>;
+@group(0) @binding(2) var<storage, read> counters: array<SeatCounters>;
 @group(0) @binding(3) var<storage, read> casters: array<Caster>;
 @group(0) @binding(4) var<storage, read> caster_lights: array<CasterLight>;
 @group(0) @binding(5) var<storage, read> faces: array<Face>;
@@ -18,13 +18,14 @@ fn refine_faces(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let slot = folded_invocation(group, groups, lane);
-    if slot < min(counters.undecided_near, view.undecided_capacity) {
-        let face_ref = undecided[slot];
-        let caster = casters[face_ref.caster];
-        let face = faces[caster.first_face + face_ref.face_id];
-        if is_determinant_positive(facing_bits(caster, caster_lights[face_ref.caster], face)) {
-            let word = caster.first_lit_word + face_ref.face_id / 32u;
-            atomicOr(&lit[word], 1u << (face_ref.face_id % 32u));
+    if slot < min(counters[0].undecided_near, undecided_capacity()) {
+        let undecided_test = undecided[slot];
+        let test = undecided_test.test;
+        let caster = casters[undecided_test.caster];
+        let face = faces[caster.first_face + face_of(test)];
+        let caster_light = caster_lights[place_of_caster(seat_of(test), undecided_test.caster)];
+        if is_determinant_positive(facing_bits(caster, caster_light, face)) {
+            atomicOr(&lit[first_lit_word(caster) + test / 32u], 1u << (test % 32u));
         }
     }
 }

@@ -3,6 +3,7 @@
 // Bits of a view's flags.
 const VIEW_CULLS = 1u;
 const VIEW_PANCAKES = 2u;
+const VIEW_TESTS = 4u;
 
 struct CasterLight {
     light_object: vec4u,

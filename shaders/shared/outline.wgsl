@@ -12,12 +12,12 @@ const MAX_SEARCHED_VALENCE = 256u;
 struct RecheckWord {
     caster: u32,
     word: u32,
-    faces: u32,
+    tests: u32,
 }
 
-struct FaceRef {
+struct FaceTest {
     caster: u32,
-    face_id: u32,
+    test: u32,
 }
 
 struct SilhouetteEdge {

@@ -37,7 +37,8 @@ pub enum Fault {
 }
 
 impl Fault {
-    fn stage(&self) -> &'static str {
+    /// The stage that it is in.
+    pub fn stage(&self) -> &'static str {
         match self {
             Self::Skipped { stage } | Self::Replaced { stage, .. } => stage,
         }
@@ -137,9 +138,9 @@ impl<'a> Chain<'a> {
 
 fn groups(dispatch: Dispatch, frame: &Frame) -> [u32; 3] {
     match dispatch {
-        Dispatch::Casters => [frame.view.caster_count.div_ceil(BLOCK_SIZE), 1, 1],
+        Dispatch::Casters => [frame.view().caster_count.div_ceil(BLOCK_SIZE), 1, frame.bundle.shape.seat_count],
         Dispatch::Blocks => {
-            let LightView { face_block_count, edge_block_count, .. } = frame.view;
+            let LightView { face_block_count, edge_block_count, .. } = *frame.view();
             [face_block_count.div_ceil(BLOCK_SIZE) + edge_block_count.div_ceil(BLOCK_SIZE), 1, 1]
         }
         Dispatch::Once => [1, 1, 1],

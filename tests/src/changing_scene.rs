@@ -298,7 +298,7 @@ impl<'a> ChangingScene<'a> {
     ///
     /// When no plan lists it.
     pub fn buffer(&self, kind: BufferKind) -> &wgpu::Buffer {
-        self.shadows.buffer(kind).unwrap_or_else(|| panic!("no plan lists {}", kind.name()))
+        self.shadows.buffer(kind).unwrap_or_else(|| panic!("no plan lists {}", kind.name())).buffer()
     }
 }
 
@@ -353,13 +353,13 @@ pub fn block_bytes(mesh: &TopologyAwareMesh) -> u64 {
     u64::from(blocks) * size_of::<WorkItem>() as u64
 }
 
-fn copy(device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) -> wgpu::Buffer {
+fn copy(device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, part: wgpu::BufferSlice<'_>) -> wgpu::Buffer {
     let copy = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("copy"),
-        size: buffer.size(),
+        size: part.size(),
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: false,
     });
-    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+    encoder.copy_buffer_to_buffer(part.buffer(), part.offset(), &copy, 0, part.size());
     copy
 }

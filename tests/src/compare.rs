@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use contrejour_layout::{Corner, FaceRef, Quad, SilhouetteEdge};
+use contrejour_layout::{Corner, FaceTest, Quad, SilhouetteEdge};
 use contrejour_mesh::TopologyAwareMesh;
 use contrejour_oracle::OracleEdge;
 
@@ -16,9 +16,9 @@ pub trait Record: Copy {
     fn floats(&self) -> Vec<(&'static str, f32)>;
 }
 
-impl Record for FaceRef {
+impl Record for FaceTest {
     fn key(&self) -> [u32; 3] {
-        [self.caster, self.face_id, 0]
+        [self.caster, self.test, 0]
     }
 
     fn exact(&self) -> Vec<(&'static str, u32)> {

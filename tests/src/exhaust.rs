@@ -242,7 +242,7 @@ impl<'a> Exhaust<'a> {
         for (kind, range) in FOUND.into_iter().zip(self.layout()) {
             let mut begin = range.start;
             for source in self.shadows.buffers(kind) {
-                encoder.copy_buffer_to_buffer(source, 0, &buffer, begin, source.size());
+                encoder.copy_buffer_to_buffer(source.buffer(), source.offset(), &buffer, begin, source.size());
                 begin += source.size();
             }
         }
@@ -254,7 +254,7 @@ impl<'a> Exhaust<'a> {
         let mut end = 0;
         FOUND.map(|kind| {
             let begin = end;
-            end += self.shadows.buffers(kind).map(wgpu::Buffer::size).sum::<u64>();
+            end += self.shadows.buffers(kind).map(|part| part.size()).sum::<u64>();
             begin..end
         })
     }

@@ -1,10 +1,10 @@
 //! All buffers of one frame on the CPU, pooled without the library's own pooling, and stages that run on them.
 
-use bytemuck::{bytes_of, bytes_of_mut, cast_slice, cast_slice_mut};
+use bytemuck::{bytes_of, cast_slice, cast_slice_mut};
 use contrejour_layout::{
-    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, Caster, CasterLight, CasterPlace, Corner, Counters, DispatchArgs,
-    DrawArgs, Edge, Face, FaceRef, LIT_WORDS_PER_BLOCK, LightView, NO_CASTER, OUTLINE_WORDS_PER_BLOCK, Quad,
-    RecheckWord, SilhouetteEdge, VIEW_CULLS, WorkItem,
+    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, BundleShape, Caster, CasterLight, CasterPlace, Corner, Counters,
+    DispatchArgs, DrawArgs, Edge, Face, FaceTest, LIT_WORDS_PER_BLOCK, LightView, NO_CASTER, OUTLINE_WORDS_PER_BLOCK,
+    Quad, RecheckWord, SeatCounters, SilhouetteEdge, TestItem, VIEW_CULLS, ViewBundle, WorkItem,
 };
 use contrejour_mesh::{FacePlanes, TopologyAwareMesh};
 use contrejour_plan::{Light, NearOne, ShadowSettings, View, ViewCounts, caster_place, views};
@@ -15,16 +15,22 @@ use crate::random::Random;
 /// Words that lie between the parts of a pool and mean nothing: a stage that reads them goes wrong.
 const GAP: [u32; 7] = [0xdead_beef; 7];
 
+/// From one seat's draws to the next one's.
+pub const DRAW_STRIDE: usize = 256 / size_of::<DrawArgs>();
+
 /// Every buffer that the stages bind, named as the stages name them.
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "the fields are the bindings, and the stages' files say what they hold")]
 pub struct Frame {
-    pub view: LightView,
+    pub bundle: ViewBundle,
+    /// The seat that the stages of one view work on.
+    pub seat: usize,
     pub caster_places: Vec<CasterPlace>,
     pub face_blocks: Vec<WorkItem>,
     pub edge_blocks: Vec<WorkItem>,
     pub face_items: Vec<WorkItem>,
-    pub edge_items: Vec<WorkItem>,
+    pub face_tests: Vec<TestItem>,
+    pub edge_tests: Vec<TestItem>,
     pub item_args: Vec<DispatchArgs>,
     pub casters: Vec<Caster>,
     pub caster_lights: Vec<CasterLight>,
@@ -37,8 +43,8 @@ pub struct Frame {
     pub lit: Vec<u32>,
     pub recheck_words: Vec<RecheckWord>,
     pub recheck_args: Vec<DispatchArgs>,
-    pub undecided: Vec<FaceRef>,
-    pub counters: Counters,
+    pub undecided: Vec<FaceTest>,
+    pub counters: Vec<SeatCounters>,
     pub refine_args: Vec<DispatchArgs>,
     pub silhouettes: Vec<SilhouetteEdge>,
     pub outline_sides: Vec<u32>,
@@ -60,7 +66,14 @@ impl Frame {
 
     /// The same of any view of a light.
     pub fn of_view(parts: &[TestPart], view: &View, settings: &ShadowSettings) -> Self {
+        Self::of_bundle(parts, &[*view], settings)
+    }
+
+    /// The same of views that are tested together, with gaps between what seats have where there are several.
+    pub fn of_bundle(parts: &[TestPart], views: &[View], settings: &ShadowSettings) -> Self {
         let mut frame = Self::empty();
+        let seats = views.len().next_power_of_two();
+        let gap = if seats > 1 { GAP.len() } else { 0 };
         let (mut lit_words, mut outline_words) = (0, 0);
         for (part, index) in parts.iter().zip(0..) {
             let planes = part.topology.face_planes();
@@ -85,9 +98,12 @@ impl Frame {
             }));
             shuffle(blocks);
         }
-        frame.caster_lights = vec![CasterLight::default(); frame.casters.len()];
-        frame.face_items = vec![WorkItem::default(); frame.face_blocks.len()];
-        frame.edge_items = vec![WorkItem::default(); frame.edge_blocks.len()];
+        let caster_stride = frame.casters.len() + gap;
+        let item_stride = frame.face_blocks.len() + gap;
+        frame.caster_lights = vec![CasterLight::default(); seats * caster_stride];
+        frame.face_items = vec![WorkItem::default(); seats * item_stride];
+        frame.face_tests = vec![TestItem::default(); frame.face_blocks.len()];
+        frame.edge_tests = vec![TestItem::default(); frame.edge_blocks.len()];
 
         let face_count: u32 = frame.casters.iter().map(|caster| caster.face_count).sum();
         let edge_count: u32 = frame.casters.iter().map(|caster| caster.edge_count).sum();
@@ -101,11 +117,24 @@ impl Frame {
             corners: 2 * edge_count,
         };
         // Casters out of view have silhouettes too.
-        frame.view = view.light_view(settings, &counts);
-        frame.view.flags &= !VIEW_CULLS;
-        frame.lit = vec![0; lit_words as usize];
-        frame.recheck_words = vec![RecheckWord::default(); lit_words as usize];
-        frame.outline_sides = vec![0; outline_words as usize];
+        for (record, view) in frame.bundle.views.iter_mut().zip(views) {
+            *record = view.light_view(settings, &counts);
+            record.flags &= !VIEW_CULLS;
+        }
+        let outline_stride = outline_words as usize + gap;
+        frame.bundle.shape = BundleShape {
+            seat_count: seats as u32,
+            seat_shift: seats.trailing_zeros(),
+            caster_stride: caster_stride as u32,
+            item_stride: item_stride as u32,
+            outline_stride: outline_stride as u32,
+            ..BundleShape::default()
+        };
+        frame.lit = vec![0; seats * lit_words as usize];
+        frame.recheck_words = vec![RecheckWord::default(); seats * lit_words as usize];
+        frame.outline_sides = vec![0; seats * outline_stride];
+        frame.counters = vec![SeatCounters::default(); seats];
+        frame.draw_args = vec![DrawArgs::default(); seats * DRAW_STRIDE];
         frame.set_room(counts);
         frame
     }
@@ -113,12 +142,14 @@ impl Frame {
     /// No casters and no room.
     pub fn empty() -> Self {
         Self {
-            view: LightView::default(),
+            bundle: ViewBundle::of_one(&LightView::default()),
+            seat: 0,
             caster_places: Vec::new(),
             face_blocks: Vec::new(),
             edge_blocks: Vec::new(),
             face_items: Vec::new(),
-            edge_items: Vec::new(),
+            face_tests: Vec::new(),
+            edge_tests: Vec::new(),
             item_args: vec![DispatchArgs::default(); 2],
             casters: Vec::new(),
             caster_lights: Vec::new(),
@@ -132,7 +163,7 @@ impl Frame {
             recheck_words: Vec::new(),
             recheck_args: vec![DispatchArgs::default()],
             undecided: Vec::new(),
-            counters: Counters::default(),
+            counters: vec![SeatCounters::default()],
             refine_args: vec![DispatchArgs::default(); 2],
             silhouettes: Vec::new(),
             outline_sides: Vec::new(),
@@ -143,14 +174,39 @@ impl Frame {
         }
     }
 
-    /// Gives the lists other sizes, in the records and in the view.
+    /// No casters, and a view alone of which something was counted.
+    pub fn of_counts(view: LightView, counters: SeatCounters) -> Self {
+        Self { bundle: ViewBundle::of_one(&view), counters: vec![counters], ..Self::empty() }
+    }
+
+    /// The view of the seat that stages of one view work on.
+    pub fn view(&self) -> &LightView {
+        &self.bundle.views[self.seat]
+    }
+
+    /// What was counted for that seat.
+    pub fn counts(&self) -> &Counters {
+        &self.counters[self.seat].counts
+    }
+
+    /// Where what that seat has begins in what seats have apart, by the stride.
+    pub fn begin(&self, stride: u32) -> usize {
+        self.seat * stride as usize
+    }
+
+    /// Gives the lists other sizes, in the records and in the views.
     pub fn set_room(&mut self, counts: ViewCounts) {
-        self.view.undecided_capacity = counts.undecided;
-        self.view.silhouette_capacity = counts.silhouettes;
-        self.view.quad_capacity = counts.quads;
-        self.view.corner_capacity = counts.corners;
-        self.undecided = vec![FaceRef::default(); counts.undecided as usize];
-        self.silhouettes = vec![SilhouetteEdge::default(); counts.silhouettes as usize];
+        for view in &mut self.bundle.views {
+            view.undecided_capacity = counts.undecided;
+            view.silhouette_capacity = counts.silhouettes;
+            view.quad_capacity = counts.quads;
+            view.corner_capacity = counts.corners;
+        }
+        let seats = self.bundle.shape.seat_count;
+        let silhouette_stride = counts.silhouettes + if seats > 1 { GAP.len() as u32 } else { 0 };
+        self.bundle.shape.silhouette_stride = silhouette_stride;
+        self.undecided = vec![FaceTest::default(); (seats * counts.undecided) as usize];
+        self.silhouettes = vec![SilhouetteEdge::default(); (seats * silhouette_stride) as usize];
         self.quads = vec![Quad::default(); counts.quads as usize];
         self.corners = vec![Corner::default(); counts.corners as usize];
     }
@@ -207,26 +263,29 @@ impl Frame {
     }
 
     /// The listed blocks of faces.
-    pub fn listed_faces(&self) -> &[WorkItem] {
-        &self.face_items[..self.counters.face_items as usize]
+    pub fn listed_faces(&self) -> &[TestItem] {
+        &self.face_tests[..self.counters[0].face_tests as usize]
     }
 
-    /// The bytes of a binding.
+    /// The bytes of a binding, from where the seat has its part of it: the stages of a bundle need the first one.
     ///
     /// # Panics
     ///
     /// When no buffer has the name.
     pub fn bytes(&self, binding: &str) -> &[u8] {
+        let shape = &self.bundle.shape;
         match binding {
-            "view" => bytes_of(&self.view),
+            "view" => bytes_of(self.view()),
+            "bundle" => bytes_of(&self.bundle),
             "caster_places" => cast_slice(&self.caster_places),
             "face_blocks" => cast_slice(&self.face_blocks),
             "edge_blocks" => cast_slice(&self.edge_blocks),
-            "face_items" => cast_slice(&self.face_items),
-            "edge_items" => cast_slice(&self.edge_items),
+            "face_items" => cast_slice(&self.face_items[self.begin(shape.item_stride)..]),
+            "face_tests" => cast_slice(&self.face_tests),
+            "edge_tests" => cast_slice(&self.edge_tests),
             "item_args" => cast_slice(&self.item_args),
             "casters" => cast_slice(&self.casters),
-            "caster_lights" => cast_slice(&self.caster_lights),
+            "caster_lights" => cast_slice(&self.caster_lights[self.begin(shape.caster_stride)..]),
             "faces" => cast_slice(&self.faces),
             "planes" => cast_slice(&self.planes),
             "positions" => cast_slice(&self.positions),
@@ -237,14 +296,14 @@ impl Frame {
             "recheck_words" => cast_slice(&self.recheck_words),
             "recheck_args" => cast_slice(&self.recheck_args),
             "undecided" => cast_slice(&self.undecided),
-            "counters" => bytes_of(&self.counters),
+            "counters" => cast_slice(&self.counters[self.seat..]),
             "refine_args" => cast_slice(&self.refine_args),
-            "silhouettes" => cast_slice(&self.silhouettes),
-            "outline_sides" => cast_slice(&self.outline_sides),
+            "silhouettes" => cast_slice(&self.silhouettes[self.begin(shape.silhouette_stride)..]),
+            "outline_sides" => cast_slice(&self.outline_sides[self.begin(shape.outline_stride)..]),
             "extrude_args" => cast_slice(&self.extrude_args),
             "quads" => cast_slice(&self.quads),
             "corners" => cast_slice(&self.corners),
-            "draw_args" => cast_slice(&self.draw_args),
+            "draw_args" => cast_slice(&self.draw_args[self.seat * DRAW_STRIDE..]),
             _ => panic!("no buffer is named {binding}"),
         }
     }
@@ -255,23 +314,28 @@ impl Frame {
     ///
     /// When stages write no buffer of the name, or one of another size.
     pub fn set_bytes(&mut self, binding: &str, bytes: &[u8]) {
+        let shape = self.bundle.shape;
+        let [items, casters, silhouettes, outlines] =
+            [shape.item_stride, shape.caster_stride, shape.silhouette_stride, shape.outline_stride]
+                .map(|stride| self.begin(stride));
         let place = match binding {
-            "caster_lights" => cast_slice_mut(&mut self.caster_lights),
-            "face_items" => cast_slice_mut(&mut self.face_items),
-            "edge_items" => cast_slice_mut(&mut self.edge_items),
+            "caster_lights" => cast_slice_mut(&mut self.caster_lights[casters..]),
+            "face_items" => cast_slice_mut(&mut self.face_items[items..]),
+            "face_tests" => cast_slice_mut(&mut self.face_tests),
+            "edge_tests" => cast_slice_mut(&mut self.edge_tests),
             "item_args" => cast_slice_mut(&mut self.item_args),
             "lit" => cast_slice_mut(&mut self.lit),
             "recheck_words" => cast_slice_mut(&mut self.recheck_words),
             "recheck_args" => cast_slice_mut(&mut self.recheck_args),
             "undecided" => cast_slice_mut(&mut self.undecided),
-            "counters" => bytes_of_mut(&mut self.counters),
+            "counters" => cast_slice_mut(&mut self.counters[self.seat..]),
             "refine_args" => cast_slice_mut(&mut self.refine_args),
-            "silhouettes" => cast_slice_mut(&mut self.silhouettes),
-            "outline_sides" => cast_slice_mut(&mut self.outline_sides),
+            "silhouettes" => cast_slice_mut(&mut self.silhouettes[silhouettes..]),
+            "outline_sides" => cast_slice_mut(&mut self.outline_sides[outlines..]),
             "extrude_args" => cast_slice_mut(&mut self.extrude_args),
             "quads" => cast_slice_mut(&mut self.quads),
             "corners" => cast_slice_mut(&mut self.corners),
-            "draw_args" => cast_slice_mut(&mut self.draw_args),
+            "draw_args" => cast_slice_mut(&mut self.draw_args[self.seat * DRAW_STRIDE..]),
             _ => panic!("no stage writes {binding}"),
         };
         place.copy_from_slice(bytes);

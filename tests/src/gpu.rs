@@ -161,6 +161,15 @@ impl Gpu {
     ///
     /// When the buffer is shorter or the device is lost.
     pub fn read_back<T: bytemuck::Pod>(&self, buffer: &wgpu::Buffer, count: usize) -> Vec<T> {
+        self.read_part(buffer.slice(..), count)
+    }
+
+    /// The first records of a part of a buffer that may be copied from.
+    ///
+    /// # Panics
+    ///
+    /// As [`read_back`](Self::read_back).
+    pub fn read_part<T: bytemuck::Pod>(&self, part: wgpu::BufferSlice<'_>, count: usize) -> Vec<T> {
         let size = (count * size_of::<T>()) as u64;
         if size == 0 {
             return Vec::new();
@@ -173,7 +182,7 @@ impl Gpu {
             mapped_at_creation: false,
         });
         let mut encoder = self.device.create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(buffer, 0, &readable, 0, copy_size);
+        encoder.copy_buffer_to_buffer(part.buffer(), part.offset(), &readable, 0, copy_size);
         self.queue.submit([encoder.finish()]);
         let bytes = self.map(&readable);
         bytemuck::pod_collect_to_vec(&bytes[..size as usize])

@@ -3,7 +3,7 @@
 use contrejour_mirror as mirror;
 use contrejour_plan::Stage;
 
-use crate::frame::Frame;
+use crate::frame::{DRAW_STRIDE, Frame};
 
 impl Frame {
     /// Runs the CPU twins of all stages from `begin` on and before `end`, in the library's order.
@@ -27,34 +27,38 @@ impl Frame {
     ///
     /// When no stage has the name.
     pub fn run_mirror(&mut self, stage: &str) {
+        let (seat, shape) = (self.seat, self.bundle.shape);
+        let [casters, silhouettes, outlines] =
+            [shape.caster_stride, shape.silhouette_stride, shape.outline_stride].map(|stride| self.begin(stride));
         match stage {
             "place_casters" => mirror::PlaceCasters {
-                view: &self.view,
+                bundle: &self.bundle,
                 caster_places: &self.caster_places,
                 caster_lights: &mut self.caster_lights,
                 counters: &mut self.counters,
             }
             .run(),
             "list_blocks" => mirror::ListBlocks {
-                view: &self.view,
+                bundle: &self.bundle,
                 caster_lights: &self.caster_lights,
                 face_blocks: &self.face_blocks,
                 edge_blocks: &self.edge_blocks,
                 face_items: &mut self.face_items,
-                edge_items: &mut self.edge_items,
+                face_tests: &mut self.face_tests,
+                edge_tests: &mut self.edge_tests,
                 counters: &mut self.counters,
             }
             .run(),
             "write_item_args" => mirror::WriteItemArgs {
-                view: &self.view,
+                bundle: &self.bundle,
                 counters: &self.counters,
                 item_args: &mut self.item_args,
                 draw_args: &mut self.draw_args,
             }
             .run(),
             "classify_faces" => mirror::ClassifyFaces {
-                view: &self.view,
-                face_items: &self.face_items,
+                bundle: &self.bundle,
+                face_tests: &self.face_tests,
                 casters: &self.casters,
                 caster_lights: &self.caster_lights,
                 planes: &self.planes,
@@ -64,13 +68,13 @@ impl Frame {
             }
             .run(),
             "write_recheck_args" => mirror::WriteRecheckArgs {
-                view: &self.view,
+                bundle: &self.bundle,
                 counters: &self.counters,
                 recheck_args: &mut self.recheck_args,
             }
             .run(),
             "recheck_faces" => mirror::RecheckFaces {
-                view: &self.view,
+                bundle: &self.bundle,
                 recheck_words: &self.recheck_words,
                 casters: &self.casters,
                 caster_lights: &self.caster_lights,
@@ -82,13 +86,13 @@ impl Frame {
             }
             .run(),
             "write_refine_args" => mirror::WriteRefineArgs {
-                view: &self.view,
+                bundle: &self.bundle,
                 counters: &self.counters,
                 refine_args: &mut self.refine_args,
             }
             .run(),
             "refine_faces" => mirror::RefineFaces {
-                view: &self.view,
+                bundle: &self.bundle,
                 undecided: &self.undecided,
                 counters: &self.counters,
                 casters: &self.casters,
@@ -99,7 +103,7 @@ impl Frame {
             }
             .run(),
             "resolve_faces" => mirror::ResolveFaces {
-                view: &self.view,
+                bundle: &self.bundle,
                 undecided: &self.undecided,
                 counters: &self.counters,
                 casters: &self.casters,
@@ -110,8 +114,8 @@ impl Frame {
             }
             .run(),
             "detect_silhouette" => mirror::DetectSilhouette {
-                view: &self.view,
-                edge_items: &self.edge_items,
+                bundle: &self.bundle,
+                edge_tests: &self.edge_tests,
                 casters: &self.casters,
                 edges: &self.edges,
                 incidences: &self.incidences,
@@ -122,37 +126,41 @@ impl Frame {
             }
             .run(),
             "write_extrude_args" => mirror::WriteExtrudeArgs {
-                view: &self.view,
-                counters: &self.counters,
+                view: &self.bundle.views[seat],
+                counters: &self.counters[seat].counts,
                 extrude_args: &mut self.extrude_args,
             }
             .run(),
             "extrude_edges" => mirror::ExtrudeEdges {
-                view: &self.view,
-                silhouettes: &self.silhouettes,
+                view: &self.bundle.views[seat],
+                silhouettes: &self.silhouettes[silhouettes..],
                 casters: &self.casters,
-                caster_lights: &self.caster_lights,
+                caster_lights: &self.caster_lights[casters..],
                 edges: &self.edges,
                 positions: &self.positions,
                 quads: &mut self.quads,
-                counters: &mut self.counters,
+                counters: &mut self.counters[seat].counts,
             }
             .run(),
             "build_corners" => mirror::BuildCorners {
-                view: &self.view,
+                view: &self.bundle.views[seat],
                 quads: &self.quads,
                 casters: &self.casters,
-                caster_lights: &self.caster_lights,
+                caster_lights: &self.caster_lights[casters..],
                 positions: &self.positions,
-                outline_sides: &self.outline_sides,
+                outline_sides: &self.outline_sides[outlines..],
                 vertex_edges: &self.vertex_edges,
                 corners: &mut self.corners,
-                counters: &mut self.counters,
+                counters: &mut self.counters[seat].counts,
             }
             .run(),
             "write_draw_args" => {
-                mirror::WriteDrawArgs { view: &self.view, counters: &self.counters, draw_args: &mut self.draw_args }
-                    .run();
+                mirror::WriteDrawArgs {
+                    view: &self.bundle.views[seat],
+                    counters: &self.counters[seat].counts,
+                    draw_args: &mut self.draw_args[seat * DRAW_STRIDE..],
+                }
+                .run();
             }
             _ => panic!("no stage is named {stage}"),
         }

@@ -174,10 +174,10 @@ impl<'a> Pipeline<'a> {
 
     fn records<T: bytemuck::Pod>(&self, kind: BufferKind, count: impl Fn(&Counters) -> u32) -> Vec<T> {
         let mut records = Vec::new();
-        for (counters, buffer) in self.shadows.buffers(BufferKind::Counters).zip(self.shadows.buffers(kind)) {
-            let counters = self.gpu.read_back(counters, 1)[0];
-            let room = buffer.size() as usize / size_of::<T>();
-            records.extend(self.gpu.read_back::<T>(buffer, room.min(count(&counters) as usize)));
+        for (counters, list) in self.shadows.buffers(BufferKind::Counters).zip(self.shadows.buffers(kind)) {
+            let counters = self.gpu.read_part(counters, 1)[0];
+            let room = list.size() as usize / size_of::<T>();
+            records.extend(self.gpu.read_part::<T>(list, room.min(count(&counters) as usize)));
         }
         records
     }

@@ -58,6 +58,15 @@ impl StageRun {
     ///
     /// When the WGSL is not valid.
     pub fn new(gpu: &Gpu, wgsl: &str, entry_point: &str) -> Self {
+        Self::with_constants(gpu, wgsl, entry_point, &[])
+    }
+
+    /// The same with other override constants than those of the WGSL.
+    ///
+    /// # Panics
+    ///
+    /// As [`new`](Self::new).
+    pub fn with_constants(gpu: &Gpu, wgsl: &str, entry_point: &str, constants: &[(&str, f64)]) -> Self {
         let bindings = bindings_of(wgsl);
         let entries: Vec<_> = bindings
             .iter()
@@ -85,7 +94,7 @@ impl StageRun {
             layout: Some(&pipeline_layout),
             module: &module,
             entry_point: Some(entry_point),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
             cache: None,
         });
         Self { name: entry_point.into(), pipeline, layout, bindings }

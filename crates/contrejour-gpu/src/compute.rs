@@ -1,22 +1,26 @@
 //! A compute stage on the device: its pipeline, its bind group, its dispatch.
 
 use contrejour_layout::{BLOCK_SIZE, DispatchArgs, MAX_GROUPS_X};
-use contrejour_plan::{PagePlan, Stage, ViewCounts};
+use contrejour_plan::{PagePlan, PipelinePlan, Stage, ViewCounts};
 
+use crate::buffers::Buffers;
 use crate::frame::Recorded;
-use crate::resources::{Bindings, Buffers, binding_type};
+use crate::resources::{Bindings, binding_type};
 use crate::stages::{ComputeStage, Dispatch};
 
 /// The pipeline of a stage.
 #[derive(Debug)]
 pub(crate) struct StagePipeline {
     description: &'static ComputeStage,
+    /// As plans list them.
+    planned: Vec<PipelinePlan>,
     layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::ComputePipeline,
+    /// For bundles of one view first, for larger ones last.
+    pipelines: Vec<wgpu::ComputePipeline>,
 }
 
 impl StagePipeline {
-    pub fn new(device: &wgpu::Device, description: &'static ComputeStage) -> Self {
+    pub fn new(device: &wgpu::Device, description: &'static ComputeStage, planned: Vec<PipelinePlan>) -> Self {
         let name = description.stage.name();
         let entries: Vec<_> = description
             .stage
@@ -45,15 +49,26 @@ impl StagePipeline {
             label: Some(name),
             source: wgpu::ShaderSource::Wgsl(description.wgsl.into()),
         });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(name),
-            layout: Some(&pipeline_layout),
-            module: &module,
-            entry_point: Some(name),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        });
-        Self { description, layout, pipeline }
+        let pipeline = |planned: &PipelinePlan| {
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(name),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some(name),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &planned.constants,
+                    ..Default::default()
+                },
+                cache: None,
+            })
+        };
+        let pipelines = planned.iter().map(pipeline).collect();
+        Self { description, planned, layout, pipelines }
+    }
+
+    /// Whether it has the pipelines that plans list for its stage.
+    pub fn fits(&self, description: &ComputeStage, planned: &[PipelinePlan]) -> bool {
+        self.stage() == description.stage && self.planned == planned
     }
 
     pub fn stage(&self) -> Stage {
@@ -65,16 +80,16 @@ impl StagePipeline {
         bindings.bind(device, self.stage().name(), &self.layout, (self.stage().buffers(), page), None)
     }
 
-    /// Records the stage over all pages; counts its dispatches.
+    /// Records the stage over all pages, for so many views where it works on several; counts its dispatches.
     pub fn encode(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
         bind_groups: &[wgpu::BindGroup],
         buffers: &Buffers,
-        pages: &[PagePlan],
+        (pages, views): (&[PagePlan], u32),
         recorded: &mut Recorded,
     ) {
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&self.pipelines[if views == 1 { 0 } else { self.pipelines.len() - 1 }]);
         for ((page, bind_group), index) in pages.iter().zip(bind_groups).zip(0..) {
             if self.description.dispatch == Dispatch::Casters && index > 0 {
                 continue;
@@ -82,7 +97,10 @@ impl StagePipeline {
             recorded.dispatches += 1;
             pass.set_bind_group(0, bind_group, &[]);
             match self.description.dispatch {
-                Dispatch::Casters => dispatch(pass, page.counts.casters.div_ceil(BLOCK_SIZE)),
+                Dispatch::Casters => {
+                    let [x, y] = folded(page.counts.casters.div_ceil(BLOCK_SIZE));
+                    pass.dispatch_workgroups(x, y, views);
+                }
                 Dispatch::Blocks => {
                     let ViewCounts { face_blocks, edge_blocks, .. } = page.counts;
                     dispatch(pass, face_blocks.div_ceil(BLOCK_SIZE) + edge_blocks.div_ceil(BLOCK_SIZE));
@@ -99,5 +117,10 @@ impl StagePipeline {
 
 /// Folded into two dimensions.
 pub(crate) fn dispatch(pass: &mut wgpu::ComputePass<'_>, groups: u32) {
-    pass.dispatch_workgroups(groups.min(MAX_GROUPS_X), groups.div_ceil(MAX_GROUPS_X), 1);
+    let [x, y] = folded(groups);
+    pass.dispatch_workgroups(x, y, 1);
+}
+
+fn folded(groups: u32) -> [u32; 2] {
+    [groups.min(MAX_GROUPS_X), groups.div_ceil(MAX_GROUPS_X)]
 }

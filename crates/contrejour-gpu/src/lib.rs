@@ -6,12 +6,14 @@
 //! function for forward renderers ([`Shadows::visibility_wgsl`]), a full-screen visibility texture for deferred ones
 //! ([`Shadows::encode_visibility`]), or the [maps](Shadows::maps) and [buffers](Shadows::buffer) themselves.
 
+mod buffers;
 mod caster_places;
 mod caster_tables;
 mod casters;
 mod compute;
 mod deformer;
 mod device_watch;
+mod encode;
 mod error;
 mod frame;
 mod heartbeat;
@@ -32,6 +34,7 @@ mod receive;
 mod records;
 mod resources;
 mod scene_buffers;
+mod seats;
 pub mod shaders;
 mod shadows;
 mod slots;
@@ -46,6 +49,7 @@ pub use contrejour_plan::{ViewChoice, VisibilityKind};
 pub use deformer::{
     AddDeformingError, DeformError, DeformHandle, DeformInput, Deformer, NewDeformerError, SetPoseError,
 };
+pub use encode::FilledView;
 pub use error::{
     AddMeshError, CasterError, CountersError, DeviceError, NewShadowsError, PrepareError, RemoveMeshError,
     ShadowLightError,
@@ -56,6 +60,6 @@ pub use lights::LightHandle;
 pub use masks::mask_facts;
 pub use pieces::{masked_mesh_facts, mesh_facts, mesh_pieces};
 pub use pool::MeshHandle;
-pub use shadows::{FilledView, Shadows};
+pub use shadows::Shadows;
 pub use timer::{PassTimer, Untimed};
 pub use visibility::EyeInput;

@@ -1,18 +1,19 @@
 //! The lights of a scene: what is known of each, and what it has on the device.
 
-use contrejour_layout::{Counters, LightView, ReceiverView, VIEW_CULLS};
+use contrejour_layout::{Counters, LightView, ReceiverView, VIEW_CULLS, VIEW_TESTS};
 use contrejour_plan::{
     BufferKind, BufferPlan, Capacity, CascadeError, DeviceFacts, Eye, FramePlan, FrameViews, LeftOut, Light, LightKind,
     Omitted, Outputs, PlanError, PlanInput, Reason, SceneFacts, Stage, View, ViewChoice, frame_views,
 };
 
+use crate::buffers::Buffers;
 use crate::caster_places::Extent;
 use crate::error::ShadowLightError;
 use crate::frame::{Frame, Made, Recorded};
 use crate::inputs::ShadowOptions;
 use crate::pipelines::Pipelines;
-use crate::readback::{Copying, CountedPage};
-use crate::resources::Buffers;
+use crate::readback::{Copying, CountedPage, Page};
+use crate::seats::{Seated, Seats};
 use crate::slots::Key;
 use crate::timer::PassTimer;
 use crate::visibility::Visibility;
@@ -117,6 +118,11 @@ impl LightState {
         Ok(needs_plan)
     }
 
+    /// Its views.
+    pub fn view_count(&self) -> usize {
+        self.seen.views.len()
+    }
+
     /// Whether it is cascaded and has no eye.
     pub fn needs_eye(&self) -> bool {
         self.seen.views.is_empty()
@@ -130,11 +136,12 @@ impl LightState {
         scene: &SceneFacts,
         device: &DeviceFacts,
         capacity: Capacity,
+        all_views: usize,
         (shared, made): (&[BufferKind], &[BufferPlan]),
     ) -> Result<FramePlan, PlanError> {
         let ShadowOptions { settings, outputs, .. } = &self.options;
         let (views, outputs) = (&self.seen.views[..], *outputs);
-        FramePlan::new(&PlanInput { scene, views, settings, device, outputs, capacity, shared, made })
+        FramePlan::new(&PlanInput { scene, views, all_views, settings, device, outputs, capacity, shared, made })
     }
 
     /// Makes what a plan lists for this light. `has_new_buffers` says whether some shared ones are not those that they were.
@@ -230,20 +237,35 @@ impl LightState {
         self.is_due
     }
 
-    /// Records what fills its maps; calls `after` behind each view. Where it counts and its counters can't be copied, it
-    /// stays due: its maps may lack what did not fit.
-    pub fn encode<T: PassTimer>(
-        &mut self,
+    /// One of its views, to be given a seat; `None` before the first frame.
+    pub fn seated(&self, view: usize) -> Option<Seated<'_>> {
+        Some(Seated { plan: self.plan.as_ref()?, of_light: &self.frame.buffers, view })
+    }
+
+    /// Records what fills the maps of a view from what was found for its seat, and copies what that counted.
+    pub fn encode_view<T: PassTimer>(
+        &self,
         encoder: &mut wgpu::CommandEncoder,
-        shared: &Buffers,
-        (light, counted): (Key, Option<&mut Copying<'_>>),
-        timer: &mut T,
-        after: impl FnMut(&mut wgpu::CommandEncoder, usize),
-    ) -> Recorded {
-        let counted = counted.filter(|_| self.counts());
-        self.is_due = self.counts() && counted.is_none();
-        let Some(plan) = &self.plan else { return Recorded::default() };
-        self.frame.encode(encoder, (plan, shared, &self.records.light_views), (light, counted), timer, after)
+        (shared, seats): (&Buffers, &Seats),
+        (view, seat): (usize, usize),
+        counted: Option<(Key, &mut Copying<'_>)>,
+        (recorded, timer): (&mut Recorded, &mut T),
+    ) {
+        let Some(plan) = &self.plan else { return };
+        seats.encode_extrusion(encoder, shared, (plan, seat), (recorded, timer));
+        let of_view = (plan, &self.records.light_views[view]);
+        self.frame.encode(encoder, of_view, (shared, seats), (view, seat), (recorded, timer));
+        if let Some((light, counted)) = counted.filter(|_| self.counts()) {
+            for (counters, page) in shared.parts(BufferKind::Counters, seat).zip(&plan.pages) {
+                counted.copy(encoder, counters, Page { light, capacity: page.capacity() });
+            }
+        }
+    }
+
+    /// Notes that its maps were made. Where it counts and its counters can't be copied, it stays due: its maps may lack what
+    /// did not fit.
+    pub fn note_recorded(&mut self, is_counted: bool) {
+        self.is_due = self.counts() && !is_counted;
     }
 
     /// Takes what the pages of a frame counted. Returns the room that was missing.
@@ -277,12 +299,13 @@ impl Records {
     fn new(seen: &FrameViews, plan: &FramePlan) -> Self {
         let views = &seen.views;
         // The list of silhouette edges does not end where the maps do.
-        let without = if plan.outputs == Outputs::Silhouettes { VIEW_CULLS } else { 0 };
+        let everywhere = if plan.outputs == Outputs::Silhouettes { VIEW_CULLS } else { 0 };
+        let untested = if plan.has_stage(Stage::ClassifyFaces) { 0 } else { VIEW_TESTS };
         let has_edges = plan.has_stage(Stage::DetectSilhouette);
         let light_view = |view: &View, page: usize| {
             let record = view.light_view(&plan.settings, &plan.pages[page].counts);
             let edge_block_count = if has_edges { record.edge_block_count } else { 0 };
-            LightView { flags: record.flags & !without, edge_block_count, ..record }
+            LightView { flags: record.flags & !everywhere & !untested, edge_block_count, ..record }
         };
         let of_page = |page| views.iter().map(move |view| light_view(view, page));
         Self {

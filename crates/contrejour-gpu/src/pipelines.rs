@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contrejour_plan::FramePlan;
+use contrejour_plan::{EntryPoints, FramePlan, PipelinePlan};
 
 use crate::compute::StagePipeline;
 use crate::passes;
@@ -16,18 +16,20 @@ pub(crate) struct Pipelines {
 }
 
 impl Pipelines {
-    /// Those of the stages that a plan lists, in order.
-    pub fn stages(&mut self, device: &wgpu::Device, plan: &FramePlan) -> Vec<Arc<StagePipeline>> {
-        let listed = stages::ALL.iter().filter(|stage| plan.has_stage(stage.stage));
+    /// Those of the stages that some plan lists, in order.
+    pub fn stages(&mut self, device: &wgpu::Device, plans: &[FramePlan]) -> Vec<Arc<StagePipeline>> {
         let pipeline = |description: &'static stages::ComputeStage| {
-            if let Some(known) = self.stages.iter().find(|known| known.stage() == description.stage) {
-                return Arc::clone(known);
+            let is_of_stage = |planned: &&PipelinePlan| planned.entry_points == EntryPoints::Compute(description.stage);
+            let plan = plans.iter().find(|plan| plan.has_stage(description.stage))?;
+            let planned: Vec<_> = plan.pipelines.iter().filter(is_of_stage).cloned().collect();
+            if let Some(known) = self.stages.iter().find(|known| known.fits(description, &planned)) {
+                return Some(Arc::clone(known));
             }
-            let made = Arc::new(StagePipeline::new(device, description));
+            let made = Arc::new(StagePipeline::new(device, description, planned));
             self.stages.push(Arc::clone(&made));
-            made
+            Some(made)
         };
-        listed.map(pipeline).collect()
+        stages::ALL.iter().filter_map(pipeline).collect()
     }
 
     /// Those of the passes that a plan lists, in order.

@@ -93,9 +93,10 @@ impl Shadows {
         let (receivers, masks, holes) = (Vec::new(), self.meshes.masks().facts(), self.holes());
         let scene = SceneFacts { meshes, pieces, casters, receivers, masks, holes };
         let made = self.buffers.made();
+        let all_views = self.lights.iter().map(|(_, light)| light.view_count()).sum();
         let plans = |shared: &[BufferKind]| -> Result<Vec<_>, PlanError> {
             let plan = |(_, light): (usize, &crate::lights::LightState)| {
-                light.plan(&scene, &self.device_facts, self.capacity, (shared, made))
+                light.plan(&scene, &self.device_facts, self.capacity, all_views, (shared, made))
             };
             self.lights.iter().map(plan).collect()
         };
@@ -106,7 +107,7 @@ impl Shadows {
     fn follow(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, plans: Vec<FramePlan>) -> Result<(), DeviceError> {
         let bytes = plans.iter().map(planned_bytes).sum();
         let scopes = OpenScopes::push(device);
-        let set_up = self.buffers.follow(device, queue, plans.first(), (&mut self.meshes, &mut self.casters));
+        let set_up = self.buffers.follow(device, queue, &plans, (&mut self.meshes, &mut self.casters));
         self.stats.set_up_bytes = set_up.bytes;
         for ((_, light), plan) in self.lights.iter_mut().zip(plans) {
             light.follow(device, plan, self.buffers.shared_and_pipelines(), set_up.has_new_buffers);

@@ -1,11 +1,12 @@
 //! A raster pass over a light view's maps on the device.
 
 use contrejour_layout::{DrawArgs, LightView};
-use contrejour_plan::{BufferKind, EntryPoints, FramePlan, PagePlan, Pass, PipelinePlan, TextureKind};
+use contrejour_plan::{BufferKind, EntryPoints, FramePlan, PagePlan, Pass, PipelinePlan, Seating, TextureKind};
 
+use crate::buffers::Buffers;
 use crate::frame::Recorded;
 use crate::passes::{ClearColor, DepthKept, DrawCount, Levels, MapPass};
-use crate::resources::{Bindings, Buffers, Textures, UNFILTERED_FLOAT, binding_type, format};
+use crate::resources::{Bindings, Textures, UNFILTERED_FLOAT, binding_type, format};
 use crate::timer::PassTimer;
 
 /// The pipelines of a pass, one for each of its draws.
@@ -47,6 +48,8 @@ impl Planned {
 pub(crate) struct DrawnView<'a> {
     /// Index among those of the light.
     pub view: usize,
+    /// Its seat among those that are tested together.
+    pub seat: usize,
     pub record: &'a LightView,
     pub pages: &'a [PagePlan],
 }
@@ -123,18 +126,24 @@ impl MapPipeline {
         self.description.pass
     }
 
+    /// Whether it binds what the seat of a view has; else it binds the view's own maps, whatever its seat.
+    pub fn is_of_seat(&self) -> bool {
+        bound_buffers(self.pass()).iter().any(|kind| kind.seating() == Seating::Apart)
+    }
+
     /// How many of the pages it draws: what covers the whole map is drawn once.
     fn drawn_pages(&self, page_count: usize) -> usize {
         let is_drawn_once = self.description.draws.iter().any(|draw| matches!(draw, DrawCount::FullScreen));
         if is_drawn_once { 1 } else { page_count }
     }
 
-    /// One bind group for each page that the pass draws, level by level.
+    /// One bind group for each page that the pass draws, level by level. What it reads are maps, of which view is said beside
+    /// them; what it binds for a seat reads none.
     pub fn bind(
         &self,
         device: &wgpu::Device,
         bindings: &Bindings<'_>,
-        textures: &Textures,
+        read: Option<(&Textures, usize)>,
         page_count: usize,
     ) -> Vec<wgpu::BindGroup> {
         let kinds = bound_buffers(self.pass());
@@ -142,12 +151,10 @@ impl MapPipeline {
             let texture = read.map(|view| (kinds.len() as u32, view));
             bindings.bind(device, self.pass().name(), &self.layout, (&kinds, page), texture)
         };
-        let reads: Vec<_> = match (self.description.levels, self.description.reads) {
-            (Levels::AllButFirst, Some(kind)) => {
-                let levels = textures.levels(kind, bindings.view);
-                levels[..levels.len() - 1].iter().map(Some).collect()
-            }
-            (_, read) => vec![read.map(|kind| &textures.levels(kind, bindings.view)[0])],
+        let levels = self.description.reads.zip(read).map(|(kind, (textures, view))| textures.levels(kind, view));
+        let reads: Vec<_> = match (self.description.levels, levels) {
+            (Levels::AllButFirst, Some(levels)) => levels[..levels.len() - 1].iter().map(Some).collect(),
+            (_, levels) => vec![levels.map(|levels| &levels[0])],
         };
         let pages = 0..self.drawn_pages(page_count);
         reads.iter().flat_map(|read| pages.clone().map(|page| bind(page, *read))).collect()
@@ -215,8 +222,9 @@ impl MapPipeline {
                     // Without a block nothing wrote the arguments.
                     DrawCount::Indirect(_) if page.counts.face_blocks + page.counts.edge_blocks == 0 => continue,
                     DrawCount::Indirect(entry) => {
-                        let offset = u64::from(entry) * size_of::<DrawArgs>() as u64;
-                        pass.draw_indirect(buffers.get(BufferKind::DrawArgs, index), offset);
+                        let args = buffers.part(BufferKind::DrawArgs, index, drawn.seat);
+                        let offset = args.offset() + u64::from(entry) * size_of::<DrawArgs>() as u64;
+                        pass.draw_indirect(args.buffer(), offset);
                     }
                 }
                 draws += 1;

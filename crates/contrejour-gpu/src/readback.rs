@@ -139,9 +139,9 @@ impl CounterReadback {
 
 impl Copying<'_> {
     /// Records the copy of a page's counters.
-    pub fn copy(&mut self, encoder: &mut wgpu::CommandEncoder, counters: &wgpu::Buffer, page: Page) {
+    pub fn copy(&mut self, encoder: &mut wgpu::CommandEncoder, counters: wgpu::BufferSlice<'_>, page: Page) {
         let offset = self.slot.pages.len() as u64 * PAGE_BYTES;
-        encoder.copy_buffer_to_buffer(counters, 0, &self.slot.buffer, offset, PAGE_BYTES);
+        encoder.copy_buffer_to_buffer(counters.buffer(), counters.offset(), &self.slot.buffer, offset, PAGE_BYTES);
         self.slot.pages.push(page);
     }
 

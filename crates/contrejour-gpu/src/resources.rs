@@ -1,8 +1,10 @@
-//! Buffers and textures, made exactly as frame plans list them.
+//! Textures, made exactly as frame plans list them, and what shaders bind.
 
 use std::collections::BTreeMap;
 
-use contrejour_plan::{BufferKind, BufferPlan, FramePlan, TextureFormat, TextureKind, TexturePlan};
+use contrejour_plan::{BufferKind, FramePlan, TextureFormat, TextureKind, TexturePlan};
+
+use crate::buffers::Buffers;
 
 /// A texture that shaders load from without a sampler.
 pub(crate) const UNFILTERED_FLOAT: wgpu::BindingType = wgpu::BindingType::Texture {
@@ -39,82 +41,22 @@ pub(crate) const DEPTH: wgpu::BindingType = wgpu::BindingType::Texture {
     multisampled: false,
 };
 
-/// Buffers that a plan lists, by kind and page.
-#[derive(Debug, Default)]
-pub(crate) struct Buffers {
-    by_place: BTreeMap<(BufferKind, usize), wgpu::Buffer>,
-}
-
-/// A buffer that was made.
-#[derive(Debug)]
-pub(crate) struct MadeBuffer {
-    pub place: (BufferKind, usize),
-    /// The one that it replaces, of another size.
-    pub old: Option<wgpu::Buffer>,
-}
-
-impl Buffers {
-    /// Makes what is listed and does not exist in that size, drops what is not listed; returns what was made.
-    pub fn follow<'a>(
-        &mut self,
-        device: &wgpu::Device,
-        listed: impl Iterator<Item = &'a BufferPlan>,
-    ) -> Vec<MadeBuffer> {
-        let mut old = std::mem::take(&mut self.by_place);
-        let mut made = Vec::new();
-        for BufferPlan { kind, page, bytes, .. } in listed {
-            let place = (*kind, *page);
-            let old = old.remove(&place);
-            if let Some(kept) = old.as_ref().filter(|old| old.size() == *bytes) {
-                self.by_place.insert(place, kept.clone());
-                continue;
-            }
-            let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(kind.name()),
-                size: *bytes,
-                usage: usage(*kind),
-                mapped_at_creation: false,
-            });
-            self.by_place.insert(place, buffer);
-            made.push(MadeBuffer { place, old });
-        }
-        made
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.by_place.is_empty()
-    }
-
-    /// The buffer of a page, or the one that serves all pages.
-    pub fn find(&self, kind: BufferKind, page: usize) -> Option<&wgpu::Buffer> {
-        self.by_place.get(&(kind, if kind.is_paged() { page } else { 0 }))
-    }
-
-    /// The buffers of a kind, page by page.
-    pub fn all(&self, kind: BufferKind) -> impl Iterator<Item = &wgpu::Buffer> {
-        self.by_place.range((kind, 0)..=(kind, usize::MAX)).map(|(_, buffer)| buffer)
-    }
-
-    /// A buffer that the plan lists, since it lists a stage that binds it.
-    ///
-    /// # Panics
-    ///
-    /// When the plan lists a stage without its buffers: a defect of the plan, which its tests rule out.
-    pub fn get(&self, kind: BufferKind, page: usize) -> &wgpu::Buffer {
-        match self.find(kind, page) {
-            Some(buffer) => buffer,
-            None => panic!("the frame plan lists no buffer `{}` for a stage that binds it", kind.name()),
-        }
-    }
-}
-
-/// Where the bindings of a view lie: pools and lists that all lights share, and what its light has of its own.
+/// Where bindings lie: pools and lists that all lights share, and whose parts of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bindings<'a> {
     pub shared: &'a Buffers,
-    pub of_light: &'a Buffers,
-    /// Index of the view among those of the light.
-    pub view: usize,
+    pub whose: Whose<'a>,
+}
+
+/// Whose parts of shared buffers are bound, and whose record of a view.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Whose<'a> {
+    /// Those of all views that are tested together.
+    Bundle,
+    /// Those of the view that has this seat.
+    Seat(usize),
+    /// No parts, and the record of this view among those that a light has.
+    View(&'a Buffers, usize),
 }
 
 impl Bindings<'_> {
@@ -140,23 +82,29 @@ impl Bindings<'_> {
     }
 
     fn resource(&self, kind: BufferKind, page: usize) -> wgpu::BindingResource<'_> {
-        if kind != BufferKind::LightView {
-            return self.shared.get(kind, page).as_entire_binding();
-        }
         // Records of views are as far apart as uniforms must be.
-        let size = kind.item_bytes();
-        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: self.of_light.get(kind, page),
-            offset: self.view as u64 * size,
-            size: wgpu::BufferSize::new(size),
-        })
+        let bytes = kind.item_bytes();
+        let (buffer, offset, bytes) = match (self.whose, kind) {
+            (Whose::View(of_light, view), BufferKind::LightView) => {
+                (of_light.get(kind, page), view as u64 * bytes, bytes)
+            }
+            (Whose::Seat(seat), BufferKind::LightView) => {
+                (self.shared.get(BufferKind::ViewBundle, page), seat as u64 * bytes, bytes)
+            }
+            (Whose::Seat(seat), kind) => {
+                let part = self.shared.part(kind, page, seat);
+                (part.buffer(), part.offset(), part.size())
+            }
+            _ => return self.shared.get(kind, page).as_entire_binding(),
+        };
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset, size: wgpu::BufferSize::new(bytes) })
     }
 }
 
 /// How shaders see a buffer.
 pub(crate) fn binding_type(kind: BufferKind, read_only: bool) -> wgpu::BufferBindingType {
     match kind {
-        BufferKind::LightView | BufferKind::ReceiverView => wgpu::BufferBindingType::Uniform,
+        BufferKind::LightView | BufferKind::ViewBundle | BufferKind::ReceiverView => wgpu::BufferBindingType::Uniform,
         _ => wgpu::BufferBindingType::Storage { read_only },
     }
 }
@@ -172,21 +120,6 @@ pub(crate) fn format(format: TextureFormat) -> wgpu::TextureFormat {
         TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
         TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
     }
-}
-
-/// Every buffer can be read back by tools and tests.
-fn usage(kind: BufferKind) -> wgpu::BufferUsages {
-    let common = wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-    common
-        | match kind {
-            BufferKind::LightView | BufferKind::ReceiverView => wgpu::BufferUsages::UNIFORM,
-            BufferKind::ItemArgs
-            | BufferKind::RecheckArgs
-            | BufferKind::RefineArgs
-            | BufferKind::ExtrudeArgs
-            | BufferKind::DrawArgs => wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT,
-            _ => wgpu::BufferUsages::STORAGE,
-        }
 }
 
 /// The textures that a light's plan lists.

@@ -1,25 +1,30 @@
 //! The buffers and pipelines that all lights share.
 
 use std::collections::BTreeSet;
+use std::iter::repeat;
 
-use contrejour_layout::CasterPlace;
+use contrejour_layout::{BundleShape, CasterPlace};
 use contrejour_plan::{BufferKind, BufferPlan, FramePlan, Omitted, PagePlan};
 
+use crate::buffers::{Buffers, MadeBuffer};
 use crate::caster_tables::CasterTable;
 use crate::casters::Casters;
 use crate::live_positions::LiveCopy;
 use crate::pipelines::Pipelines;
 use crate::pool::{MeshPool, PlacedPiece};
 use crate::pool_content::MESH_POOLS;
-use crate::resources::{Buffers, MadeBuffer};
+use crate::seats::{Seats, shapes};
 
-/// Pools of meshes, records of casters, and the lists that are filled for one view after the other.
+/// Pools of meshes, records of casters, and the lists that are filled for one bundle of views after the other.
 #[derive(Debug, Default)]
 pub(crate) struct SceneBuffers {
     shared: Buffers,
     /// Those buffers as the plan lists them.
     made: Vec<BufferPlan>,
     pipelines: Pipelines,
+    seats: Seats,
+    /// How seats share the lists, page by page, as the device knows it.
+    shapes: Vec<[BundleShape; 4]>,
     /// What lies in the pools, page by page.
     pages: Vec<PagePlan>,
     /// What lies in the lists of casters, page by page.
@@ -66,6 +71,10 @@ impl SceneBuffers {
         (&self.shared, &mut self.pipelines)
     }
 
+    pub fn seats(&self) -> &Seats {
+        &self.seats
+    }
+
     /// The shared buffers as the last plan lists them.
     pub fn made(&self) -> &[BufferPlan] {
         &self.made
@@ -80,16 +89,16 @@ impl SceneBuffers {
         *self = Self { pipelines: std::mem::take(&mut self.pipelines), ..Self::default() };
     }
 
-    /// Makes and fills what a plan lists, as all do that share it. What stays is not uploaded again: in a scene of one page
+    /// Makes and fills what the plans of all lights list: they share it. What stays is not uploaded again: in a scene of one page
     /// it stays where it is, and goes with a buffer that grows by a copy on the device.
     pub fn follow(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        plan: Option<&FramePlan>,
+        plans: &[FramePlan],
         (meshes, casters): (&mut MeshPool, &mut Casters),
     ) -> SetUp {
-        let Some(plan) = plan else {
+        let Some(plan) = plans.first() else {
             *self = Self::default();
             return SetUp { bytes: 0, has_new_buffers: true };
         };
@@ -105,6 +114,14 @@ impl SceneBuffers {
         upload.meshes(meshes, &placed, &stale, self.has_planes);
         casters.write_tables(&mut self.tables, stale.tables, meshes, (&plan.pages, &placed));
         upload.tables(&mut self.tables, &stale, self.has_edges);
+        let shapes = shapes(plan);
+        for ((shapes, before), page) in shapes.iter().zip(self.shapes.iter().map(Some).chain(repeat(None))).zip(0..) {
+            let place = (BufferKind::BundleShapes, page);
+            if before != Some(shapes) || stale.empty.contains(&place) {
+                upload.write(place, 0, bytemuck::cast_slice(shapes));
+            }
+        }
+        self.shapes = shapes;
         let bytes = upload.bytes;
         if stale.empty.contains(&(BufferKind::CasterPlaces, 0)) {
             casters.upload_all_places();
@@ -114,6 +131,7 @@ impl SceneBuffers {
         }
         meshes.note_filled();
         self.made = listed().copied().collect();
+        self.seats.follow(device, plans, (&self.shared, &mut self.pipelines), has_new_buffers);
         self.pages.clone_from(&plan.pages);
         SetUp { bytes, has_new_buffers }
     }

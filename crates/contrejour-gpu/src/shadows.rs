@@ -16,10 +16,8 @@ use crate::inputs::{FrameStats, ShadowOptions, device_facts};
 use crate::lights::{LightHandle, LightState};
 use crate::pool::{MeshHandle, MeshPool};
 use crate::readback::CounterReadback;
-use crate::resources::Buffers;
 use crate::scene_buffers::SceneBuffers;
-use crate::slots::Slots;
-use crate::timer::PassTimer;
+use crate::slots::{Key, Slots};
 
 /// Silhouettes and shadow maps of all lights of a scene.
 ///
@@ -28,8 +26,8 @@ use crate::timer::PassTimer;
 ///
 /// What stays is not touched by what comes and goes. On the device each mesh and each caster has places of its own for as
 /// long as it is there; what comes gets a place that something left, or lies behind the others. So the frame after it
-/// uploads the mesh, the caster's record and its blocks, 12 bytes for each 64 faces or edges, whatever else there is; what
-/// goes costs as many bytes of blocks at most. Nothing is waited for.
+/// uploads the mesh, the caster's record and its blocks, 12 bytes for each 64 faces or edges, and where a list grew 128 bytes
+/// that say so, whatever else there is; what goes costs as many bytes of blocks at most. Nothing is waited for.
 ///
 /// - A buffer is as large as the first frame needs it. One that gets too small grows to half more than is needed, by a copy on
 ///   the device; while that runs both are there. One that has room is kept, also where less would do.
@@ -49,6 +47,10 @@ pub struct Shadows {
     pub(crate) readback: CounterReadback,
     pub(crate) watch: DeviceWatch,
     pub(crate) stats: FrameStats,
+    /// The seat of the view that was recorded last.
+    pub(crate) last_seat: usize,
+    /// Views that are recorded; kept, so that no frame allocates.
+    pub(crate) due: Vec<(Key, usize)>,
     /// Whether what is made may not be what is needed: something came or went, or lists were too short.
     pub(crate) is_stale: bool,
 }
@@ -94,6 +96,8 @@ impl Shadows {
             readback,
             watch,
             stats: FrameStats::default(),
+            last_seat: 0,
+            due: Vec::new(),
             is_stale: true,
         })
     }
@@ -230,59 +234,22 @@ impl Shadows {
         self.lights.iter_mut().for_each(|(_, light)| light.make_due());
     }
 
-    /// Records the frame: for each light whose maps do not stand, compute stages and the passes that fill them. Nothing is
-    /// recorded for a light that saw no change since its maps were made.
-    ///
-    /// The encoder's commands must be submitted, or dropped together with this object.
-    pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
-        self.encode_each(encoder, timer, |_, _| ());
-    }
-
-    /// Records the frame as [`encode`](Self::encode) does, and calls `after` where a view's stages and passes are recorded:
-    /// for commands of the caller's own that need its lists, before the next view fills them anew.
-    pub fn encode_each<T: PassTimer>(
-        &mut self,
-        encoder: &mut wgpu::CommandEncoder,
-        timer: &mut T,
-        mut after: impl FnMut(&mut wgpu::CommandEncoder, &FilledView<'_>),
-    ) {
-        (self.stats.dispatches_recorded, self.stats.draws_recorded) = (0, 0);
-        let is_due = self.lights.iter().any(|(_, light)| light.is_due());
-        if self.is_stale || !is_due {
-            return;
-        }
-        self.buffers.encode_copies(encoder, &self.casters.take_live_copies());
-        let shared = self.buffers.shared();
-        let due = self.lights.iter().filter(|(_, light)| light.is_due());
-        let counted_pages = due.map(|(_, light)| light.counted_pages()).sum();
-        let mut counted = if counted_pages > 0 { self.readback.begin(counted_pages) } else { None };
-        for (key, light) in self.lights.iter_mut().filter(|(_, light)| light.is_due()) {
-            let recorded = light.encode(encoder, shared, (key, counted.as_mut()), timer, |encoder, view| {
-                after(encoder, &FilledView { light: LightHandle(key), view, shared });
-            });
-            self.stats.dispatches_recorded += recorded.dispatches;
-            self.stats.draws_recorded += recorded.draws;
-        }
-        if let Some(counted) = counted {
-            counted.finish(encoder);
-        }
-    }
-
     /// A buffer of the frame, where a plan lists it: the silhouette list and its counters stay here for stages of the
-    /// caller's. Lists are filled for one view after the other, so afterwards they hold what the last view of the last
-    /// light left. A later [`prepare`](Self::prepare) may replace it. Where a scene fills several pages this is the first
-    /// one's: [`buffers`](Self::buffers) are all.
-    pub fn buffer(&self, kind: BufferKind) -> Option<&wgpu::Buffer> {
+    /// caller's. Views that are tested together have [parts of their own](contrejour_plan::Seating) of a list, and the next
+    /// ones fill them anew: this is the part of the last view of the last light that was recorded, as it can be bound. A
+    /// later [`prepare`](Self::prepare) may replace the buffer. Where a scene fills several pages this is the first one's:
+    /// [`buffers`](Self::buffers) are all.
+    pub fn buffer(&self, kind: BufferKind) -> Option<wgpu::BufferSlice<'_>> {
         self.buffers(kind).next()
     }
 
     /// The buffers of a kind: one for each of the [plan's pages](FramePlan::pages), or one that serves all pages. A
     /// scene has more than one page where its meshes are too large for the device's buffers. Those [of a
     /// light](BufferKind::is_of_light) are the last light's.
-    pub fn buffers(&self, kind: BufferKind) -> impl Iterator<Item = &wgpu::Buffer> {
+    pub fn buffers(&self, kind: BufferKind) -> impl Iterator<Item = wgpu::BufferSlice<'_>> {
         let of_light = self.lights.iter().last().filter(|_| kind.is_of_light());
         let buffers = of_light.map_or(self.buffers.shared(), |(_, light)| &light.frame.buffers);
-        buffers.all(kind)
+        buffers.parts(kind, self.last_seat)
     }
 
     /// The plan of the last prepared frame of a light.
@@ -338,23 +305,6 @@ impl Shadows {
         });
         let counted = self.lights.iter().filter_map(|(_, light)| light.counters);
         self.stats.counters = counted.reduce(|one, other| [one, other].into_iter().sum());
-    }
-}
-
-/// A view whose lists are filled; see [`Shadows::encode_each`].
-#[derive(Clone, Copy, Debug)]
-pub struct FilledView<'a> {
-    /// Whose view it is.
-    pub light: LightHandle,
-    /// Its index among the light's views.
-    pub view: usize,
-    shared: &'a Buffers,
-}
-
-impl FilledView<'_> {
-    /// The buffers of a kind, page by page, as [`Shadows::buffers`] has them.
-    pub fn buffers(&self, kind: BufferKind) -> impl Iterator<Item = &wgpu::Buffer> {
-        self.shared.all(kind)
     }
 }
 

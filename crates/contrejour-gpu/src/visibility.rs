@@ -4,7 +4,8 @@
 use contrejour_layout::EyeView;
 use contrejour_plan::{BufferKind, MapSampler, TextureKind, ViewChoice, VisibilityKind};
 
-use crate::resources::{Buffers, DEPTH, DEPTH_LAYERS, FILTERED_LAYERS, Textures, UNFILTERED_LAYERS};
+use crate::buffers::Buffers;
+use crate::resources::{DEPTH, DEPTH_LAYERS, FILTERED_LAYERS, Textures, UNFILTERED_LAYERS};
 use crate::timer::PassTimer;
 use crate::visibility_wgsl::pass_wgsl;
 

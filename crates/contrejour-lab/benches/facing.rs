@@ -64,7 +64,7 @@ fn main() {
 fn measure(gpu: &Gpu, name: &str, mesh: &Triangles, lights: &[Light], bar: Option<f64>, rounds: usize) -> bool {
     let mut stages = Stages::new(gpu, mesh);
     stages.prepare(&lights[0]);
-    let planes = stages.shadows.buffer(BufferKind::Planes).expect("a rigid mesh has planes").clone();
+    let planes = stages.shadows.buffer(BufferKind::Planes).expect("a rigid mesh has planes").buffer().clone();
     let face_count = mesh.triangles.len();
     let bare: Vec<_> = forms().into_iter().map(|form| Bare::new(gpu, &form, &planes, face_count)).collect();
     let own_shape = Bare::new(gpu, &WORD_BY_LANE, &planes, face_count);

@@ -22,6 +22,7 @@
 //! | Matrices | column-major, named `<to>_from_<from>` |
 
 mod args;
+mod bundle;
 mod deform;
 mod light;
 mod outline;
@@ -30,6 +31,7 @@ mod shared_struct;
 mod topology;
 
 pub use args::*;
+pub use bundle::*;
 pub use deform::*;
 pub use light::*;
 pub use outline::*;
@@ -66,15 +68,19 @@ pub const SHARED_STRUCTS: &[SharedStruct] = &[
     Caster::SHARED,
     Mask::SHARED,
     WorkItem::SHARED,
+    TestItem::SHARED,
     CasterPlace::SHARED,
     CasterLight::SHARED,
     LightView::SHARED,
+    BundleShape::SHARED,
+    ViewBundle::SHARED,
     RecheckWord::SHARED,
-    FaceRef::SHARED,
+    FaceTest::SHARED,
     SilhouetteEdge::SHARED,
     Quad::SHARED,
     Corner::SHARED,
     Counters::SHARED,
+    SeatCounters::SHARED,
     DispatchArgs::SHARED,
     DrawArgs::SHARED,
     ReceiverView::SHARED,

@@ -40,7 +40,7 @@ shared_struct! {
         face_block_count: u32,
         /// Blocks of edges of all casters.
         edge_block_count: u32,
-        /// Room in the list of undecided faces.
+        /// Room in the list of undecided faces; a bundle has as much for each of its seats.
         undecided_capacity: u32,
         /// Room in the list of silhouette edges.
         silhouette_capacity: u32,
@@ -77,7 +77,7 @@ shared_struct! {
         warp_exponent: f32,
         /// Casters.
         caster_count: u32,
-        /// Bits [`VIEW_CULLS`] and [`VIEW_PANCAKES`].
+        /// Bits [`VIEW_CULLS`], [`VIEW_PANCAKES`] and [`VIEW_TESTS`].
         flags: u32,
         /// How far outside the frustum's sides a caster still matters, in NDC: smoothie width and filter texels.
         reach_ndc: f32,
@@ -94,6 +94,9 @@ pub const VIEW_CULLS: u32 = 1;
 /// Bit of [`LightView::flags`]: casters nearer to the light than the nearest depth cast too. They are drawn at the nearest
 /// depth in clip space and keep their own linear depth. Orthographic views alone have it.
 pub const VIEW_PANCAKES: u32 = 2;
+
+/// Bit of [`LightView::flags`]: faces and edges are tested for it; else its casters are drawn and no more.
+pub const VIEW_TESTS: u32 = 4;
 
 shared_struct! {
     /// What the visibility function needs to look up a receiver in the maps of a light view. A uniform.

@@ -7,20 +7,21 @@ shared_struct! {
     RecheckWord {
         /// Index of the caster.
         caster: u32,
-        /// Which word of its lit bits: 32 faces.
+        /// Which word of its lit bits: 32 tests.
         word: u32,
-        /// The bits of its undecided faces.
-        faces: u32,
+        /// The bits of the undecided ones.
+        tests: u32,
     }
 }
 
 shared_struct! {
-    /// One face of one caster.
-    FaceRef {
+    /// One face of one caster, tested for one view.
+    FaceTest {
         /// Index of the caster.
         caster: u32,
-        /// The face.
-        face_id: u32,
+        /// The face times the [seats](crate::BundleShape::seat_count) of the bundle, plus the seat of the view: which of the
+        /// caster's lit bits.
+        test: u32,
     }
 }
 

@@ -88,7 +88,7 @@ shared_struct! {
         first_vertex_offset_word: u32,
         /// Where its vertex edges start in the same pool, in words.
         first_vertex_edge_word: u32,
-        /// Where its lit bits start in the buffer of lit bits, in words.
+        /// Where its lit bits start in the buffer of lit bits, in words for each seat of the bundle.
         first_lit_word: u32,
         /// Where its outline sides start in the buffer of outline sides, in words.
         first_outline_word: u32,
@@ -139,7 +139,7 @@ pub const MASK_MIRROR: u32 = 1;
 pub const MASK_CLAMP: u32 = 2;
 
 shared_struct! {
-    /// What one workgroup does: one block of [`BLOCK_SIZE`](crate::BLOCK_SIZE) faces or edges of one caster.
+    /// One block of [`BLOCK_SIZE`](crate::BLOCK_SIZE) faces or edges of one caster.
     WorkItem {
         /// Index of the caster, or [`NO_CASTER`] in a list of blocks.
         caster: u32,

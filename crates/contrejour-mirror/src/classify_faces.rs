@@ -5,58 +5,78 @@
 //! may round otherwise and list a few other faces; what both decide is equal.
 
 use contrejour_layout::{
-    BLOCK_BY_PLANES, Caster, CasterLight, Counters, FACES_PER_WORD, LIT_WORDS_PER_BLOCK, LightView, RecheckWord,
-    WorkItem,
+    BLOCK_BY_PLANES, Caster, CasterLight, FACES_PER_WORD, LIT_WORDS_PER_BLOCK, RecheckWord, SeatCounters, TestItem,
+    ViewBundle,
 };
+
+use crate::bundle::{caster_light_of, first_lit_word, seats_in};
 
 /// The bindings of `classify_faces`.
 pub struct ClassifyFaces<'a> {
-    /// Not read.
-    pub view: &'a LightView,
+    /// How many views are tested.
+    pub bundle: &'a ViewBundle,
     /// Blocks of faces.
-    pub face_items: &'a [WorkItem],
+    pub face_tests: &'a [TestItem],
     /// Where the parts of each caster lie.
     pub casters: &'a [Caster],
-    /// The light as each caster sees it.
+    /// The light of each seat as each caster sees it.
     pub caster_lights: &'a [CasterLight],
     /// Pool of planes: normal and distance of each face.
     pub planes: &'a [[f32; 4]],
-    /// One bit a face; both words of each block are written.
+    /// One bit a face and seat; all words of each block are written.
     pub lit: &'a mut [u32],
     /// Words with faces to recheck.
     pub recheck_words: &'a mut [RecheckWord],
-    /// How many work items there are; counts the words.
-    pub counters: &'a mut Counters,
+    /// How many blocks there are; counts the words, and for each seat the half blocks that they are of.
+    pub counters: &'a mut [SeatCounters],
 }
 
 impl ClassifyFaces<'_> {
     /// Does what the dispatch does.
     pub fn run(mut self) {
-        for item in &self.face_items[..self.counters.face_items as usize] {
-            for word in 0..LIT_WORDS_PER_BLOCK {
-                self.classify_word(item, item.block * LIT_WORDS_PER_BLOCK + word);
+        for item in &self.face_tests[..self.counters[0].face_tests as usize] {
+            for half in 0..LIT_WORDS_PER_BLOCK {
+                self.classify_half(item, item.block * LIT_WORDS_PER_BLOCK + half);
             }
         }
     }
 
-    fn classify_word(&mut self, item: &WorkItem, word: u32) {
+    fn classify_half(&mut self, item: &TestItem, half: u32) {
         let caster = &self.casters[item.caster as usize];
-        let caster_light = &self.caster_lights[item.caster as usize];
-        let first_face_id = word * FACES_PER_WORD;
+        let seat_count = self.bundle.shape.seat_count;
+        let first_face_id = half * FACES_PER_WORD;
         let face_count = caster.face_count.saturating_sub(first_face_id).min(FACES_PER_WORD);
-        let [lit, undecided] = match scaled_light(caster_light) {
-            _ if caster_light.casts == 0 || face_count == 0 => [0, 0],
-            Some(light) if item.kind == BLOCK_BY_PLANES => {
-                let first_face = caster.first_face.wrapping_add(first_face_id) as usize;
-                classify_by_planes(&self.planes[first_face..][..face_count as usize], light)
+        let (mut lit, mut undecided) = ([0_u32; FACES_PER_WORD as usize], [0_u32; FACES_PER_WORD as usize]);
+        for seat in seats_in(self.bundle, item.seats) {
+            let caster_light = caster_light_of(self.bundle, self.caster_lights, seat as u32, item.caster);
+            let [lit_faces, undecided_faces] = match scaled_light(caster_light) {
+                _ if face_count == 0 => [0, 0],
+                Some(light) if item.kind == BLOCK_BY_PLANES => {
+                    let first_face = caster.first_face.wrapping_add(first_face_id) as usize;
+                    classify_by_planes(&self.planes[first_face..][..face_count as usize], light)
+                }
+                _ => [0, u32::MAX >> (FACES_PER_WORD - face_count)],
+            };
+            for face in 0..FACES_PER_WORD as usize {
+                lit[face] |= (lit_faces >> face & 1) << seat;
+                undecided[face] |= (undecided_faces >> face & 1) << seat;
             }
-            _ => [0, u32::MAX >> (FACES_PER_WORD - face_count)],
-        };
-        self.lit[(caster.first_lit_word + word) as usize] = lit;
-        if undecided != 0 {
-            let slot = self.counters.recheck_words as usize;
-            self.counters.recheck_words += 1;
-            self.recheck_words[slot] = RecheckWord { caster: item.caster, word, faces: undecided };
+            self.counters[seat].counts.recheck_words += u32::from(undecided_faces != 0);
+        }
+        // The bits of a face lie side by side.
+        for word in 0..seat_count {
+            let faces = FACES_PER_WORD / seat_count;
+            let bits = |of_faces: &[u32; 32]| {
+                (0..faces).map(|face| of_faces[(word * faces + face) as usize] << (face * seat_count)).sum::<u32>()
+            };
+            let place = half * seat_count + word;
+            self.lit[first_lit_word(self.bundle, caster) + place as usize] = bits(&lit);
+            let tests = bits(&undecided);
+            if tests != 0 {
+                let slot = self.counters[0].recheck_words as usize;
+                self.counters[0].recheck_words += 1;
+                self.recheck_words[slot] = RecheckWord { caster: item.caster, word: place, tests };
+            }
         }
     }
 }

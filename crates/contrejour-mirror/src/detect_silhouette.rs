@@ -1,31 +1,33 @@
 //! Finds the edges whose signed multiplicity is not zero and the side on which their faces lie.
 
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, Counters, Edge, INCIDENCE_ALONG, INCIDENCE_LIST, INCIDENCE_NONE, LightView,
-    OUTLINE_BLOCKER_LEFT, OUTLINE_BLOCKER_RIGHT, OUTLINE_NONE, OUTLINE_WORDS_PER_BLOCK, SilhouetteEdge, UNLIT_FACE,
-    WorkItem,
+    BLOCK_SIZE, Caster, Edge, INCIDENCE_ALONG, INCIDENCE_LIST, INCIDENCE_NONE, OUTLINE_BLOCKER_LEFT,
+    OUTLINE_BLOCKER_RIGHT, OUTLINE_NONE, OUTLINE_WORDS_PER_BLOCK, SeatCounters, SilhouetteEdge, TestItem, UNLIT_FACE,
+    ViewBundle,
 };
+
+use crate::bundle::{is_lit, seats_in};
 
 /// The stage `detect_silhouette`: lit bits to silhouette edges and outline sides.
 pub struct DetectSilhouette<'a> {
-    /// The room in the list of silhouette edges.
-    pub view: &'a LightView,
+    /// The room in the list of silhouette edges of each seat.
+    pub bundle: &'a ViewBundle,
     /// Blocks of edges.
-    pub edge_items: &'a [WorkItem],
+    pub edge_tests: &'a [TestItem],
     /// Where the parts of each caster lie.
     pub casters: &'a [Caster],
     /// Edges of all casters.
     pub edges: &'a [Edge],
     /// Incidence lists of all casters.
     pub incidences: &'a [u32],
-    /// Lit bits of all casters.
+    /// Lit bits of all casters, one a face and seat.
     pub lit: &'a [u32],
-    /// The silhouette: `counters.silhouette_edges` records.
+    /// The silhouette of each seat: `counters.silhouette_edges` records.
     pub silhouettes: &'a mut [SilhouetteEdge],
-    /// Outline sides of all casters, two bits an edge.
+    /// Outline sides of each seat and all casters, two bits an edge.
     pub outline_sides: &'a mut [u32],
-    /// How many work items there are; counts silhouette edges.
-    pub counters: &'a mut Counters,
+    /// How many blocks there are; counts silhouette edges of each seat.
+    pub counters: &'a mut [SeatCounters],
 }
 
 /// Faces on the left and on the right of an edge as seen from the light.
@@ -41,37 +43,49 @@ impl DetectSilhouette<'_> {
     /// # Panics
     ///
     /// When a record names a part of a buffer that does not exist.
-    pub fn run(self) {
-        for item in &self.edge_items[..self.counters.edge_items as usize] {
-            let caster = &self.casters[item.caster as usize];
-            let mut block_sides = [0; OUTLINE_WORDS_PER_BLOCK as usize];
-            let first_edge_id = item.block * BLOCK_SIZE;
-            let end_edge_id = caster.edge_count.min(first_edge_id + BLOCK_SIZE);
-            for edge_id in first_edge_id..end_edge_id {
-                let edge = &self.edges[caster.first_edge.wrapping_add(edge_id) as usize];
-                let sides = count_sides(caster, edge, self.incidences, self.lit);
-
-                // Append the silhouette.
-                if sides.left != sides.right {
-                    let slot = self.counters.silhouette_edges;
-                    self.counters.silhouette_edges += 1;
-                    if slot < self.view.silhouette_capacity {
-                        self.silhouettes[slot as usize] =
-                            SilhouetteEdge { caster: item.caster, edge_id, left: sides.left, right: sides.right };
-                    }
-                }
-                let lane = edge_id - first_edge_id;
-                block_sides[lane as usize / 16] |= outline_side(sides) << (lane % 16 * 2);
+    pub fn run(mut self) {
+        for item in &self.edge_tests[..self.counters[0].edge_tests as usize] {
+            for seat in seats_in(self.bundle, item.seats) {
+                self.detect(item, seat);
             }
-
-            // Keep the outline sides for whoever asks about a neighbour.
-            let first_word = (caster.first_outline_word + item.block * OUTLINE_WORDS_PER_BLOCK) as usize;
-            self.outline_sides[first_word..][..block_sides.len()].copy_from_slice(&block_sides);
         }
+    }
+
+    fn detect(&mut self, item: &TestItem, seat: usize) {
+        let caster = &self.casters[item.caster as usize];
+        let shape = &self.bundle.shape;
+        let silhouettes = &mut self.silhouettes[seat * shape.silhouette_stride as usize..];
+        let outline_sides = &mut self.outline_sides[seat * shape.outline_stride as usize..];
+        let counts = &mut self.counters[seat].counts;
+        let mut block_sides = [0; OUTLINE_WORDS_PER_BLOCK as usize];
+        let first_edge_id = item.block * BLOCK_SIZE;
+        let end_edge_id = caster.edge_count.min(first_edge_id + BLOCK_SIZE);
+        for edge_id in first_edge_id..end_edge_id {
+            let edge = &self.edges[caster.first_edge.wrapping_add(edge_id) as usize];
+            let sides = count_sides(caster, edge, self.incidences, |face| {
+                is_lit(self.bundle, self.lit, caster, face * shape.seat_count + seat as u32)
+            });
+
+            // Append the silhouette.
+            if sides.left != sides.right {
+                let slot = counts.silhouette_edges;
+                counts.silhouette_edges += 1;
+                if slot < self.bundle.views[seat].silhouette_capacity {
+                    silhouettes[slot as usize] =
+                        SilhouetteEdge { caster: item.caster, edge_id, left: sides.left, right: sides.right };
+                }
+            }
+            let lane = edge_id - first_edge_id;
+            block_sides[lane as usize / 16] |= outline_side(sides) << (lane % 16 * 2);
+        }
+
+        // Keep the outline sides for whoever asks about a neighbour.
+        let first_word = (caster.first_outline_word + item.block * OUTLINE_WORDS_PER_BLOCK) as usize;
+        outline_sides[first_word..][..block_sides.len()].copy_from_slice(&block_sides);
     }
 }
 
-fn count_sides(caster: &Caster, edge: &Edge, incidences: &[u32], lit: &[u32]) -> Sides {
+fn count_sides(caster: &Caster, edge: &Edge, incidences: &[u32], is_lit: impl Fn(u32) -> bool) -> Sides {
     let pair = [edge.first, edge.second];
     let words = if edge.first == INCIDENCE_LIST {
         let list = caster.first_incidence.wrapping_add(edge.second) as usize;
@@ -84,18 +98,15 @@ fn count_sides(caster: &Caster, edge: &Edge, incidences: &[u32], lit: &[u32]) ->
         if word == INCIDENCE_NONE {
             continue;
         }
+        let face = word >> 1;
         // A face is on the left when its sign and its orientation along the edge agree.
-        if is_lit(caster, lit, word >> 1) == (word & INCIDENCE_ALONG != 0) {
+        if (face != UNLIT_FACE && is_lit(face)) == (word & INCIDENCE_ALONG != 0) {
             sides.left += 1;
         } else {
             sides.right += 1;
         }
     }
     sides
-}
-
-fn is_lit(caster: &Caster, lit: &[u32], face: u32) -> bool {
-    face != UNLIT_FACE && lit[(caster.first_lit_word + face / 32) as usize] >> (face % 32) & 1 == 1
 }
 
 fn outline_side(sides: Sides) -> u32 {
@@ -198,7 +209,7 @@ mod tests {
     fn face_that_stands_for_unlit_reads_no_bit() {
         let caster = Caster::default();
         let edge = Edge { first: UNLIT_FACE << 1 | INCIDENCE_ALONG, second: INCIDENCE_NONE, ..Default::default() };
-        let sides = count_sides(&caster, &edge, &[], &[]);
+        let sides = count_sides(&caster, &edge, &[], |_| panic!("there is no bit"));
         assert_eq!((sides.left, sides.right), (0, 1));
     }
 }

@@ -1,6 +1,6 @@
 //! The input of the facing test, as bits: the twin of `shared/facing.wgsl`.
 
-use contrejour_layout::{Caster, CasterLight, Face, FaceRef};
+use contrejour_layout::{Caster, CasterLight, Face};
 
 /// Three coordinates, as the bits of `f32` numbers.
 pub(crate) type Bits3 = [u32; 3];
@@ -87,9 +87,4 @@ pub(crate) fn grid_shift(bits: u32) -> u32 {
 
 pub(crate) fn is_negative(bits: u32) -> bool {
     bits >> 31 != 0
-}
-
-/// Sets the bit of a lit face.
-pub(crate) fn set_lit(lit: &mut [u32], caster: &Caster, face: FaceRef) {
-    lit[(caster.first_lit_word + face.face_id / 32) as usize] |= 1 << (face.face_id % 32);
 }

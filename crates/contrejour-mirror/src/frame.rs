@@ -1,8 +1,9 @@
 //! The stages of one light view on given work items, one after the other.
 
 use contrejour_layout::{
-    BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceRef,
-    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SilhouetteEdge, WorkItem,
+    BLOCK_SIZE, Caster, CasterLight, Corner, Counters, DispatchArgs, DrawArgs, Edge, Face, FaceTest,
+    LIT_WORDS_PER_BLOCK, LightView, OUTLINE_WORDS_PER_BLOCK, Quad, RecheckWord, SeatCounters, SilhouetteEdge, TestItem,
+    ViewBundle, WorkItem,
 };
 
 use crate::{
@@ -94,6 +95,11 @@ fn listed(inputs: &FrameInputs) -> Counters {
     Counters { face_items, edge_items, ..Counters::default() }
 }
 
+/// What it lists to be tested for the view, which has the only seat.
+fn tests(items: &[WorkItem]) -> Vec<TestItem> {
+    items.iter().map(|&WorkItem { caster, block, kind }| TestItem { caster, block, kind, seats: 1 }).collect()
+}
+
 fn lit_words(inputs: &FrameInputs) -> Vec<u32> {
     let end = |caster: &Caster| caster.first_lit_word + caster.face_count.div_ceil(BLOCK_SIZE) * LIT_WORDS_PER_BLOCK;
     vec![0; inputs.casters.iter().map(end).max().unwrap_or(0) as usize]
@@ -120,23 +126,27 @@ impl FrameOutputs {
 
     fn find_lit_faces(&mut self, inputs: &FrameInputs) {
         let &FrameInputs { view, casters, caster_lights, faces, positions, .. } = inputs;
+        let bundle = &ViewBundle::of_one(view);
+        let face_tests = &tests(inputs.face_items);
+        let mut counters =
+            [SeatCounters { counts: self.counters, face_tests: face_tests.len() as u32, ..SeatCounters::default() }];
         let words = inputs.face_items.len() * LIT_WORDS_PER_BLOCK as usize;
         let mut recheck_words = vec![RecheckWord::default(); words];
-        let mut undecided = vec![FaceRef::default(); view.undecided_capacity as usize];
+        let mut undecided = vec![FaceTest::default(); view.undecided_capacity as usize];
         ClassifyFaces {
-            view,
-            face_items: inputs.face_items,
+            bundle,
+            face_tests,
             casters,
             caster_lights,
             planes: inputs.planes,
             lit: &mut self.lit,
             recheck_words: &mut recheck_words,
-            counters: &mut self.counters,
+            counters: &mut counters,
         }
         .run();
-        WriteRecheckArgs { view, counters: &self.counters, recheck_args: &mut self.recheck_args }.run();
+        WriteRecheckArgs { bundle, counters: &counters, recheck_args: &mut self.recheck_args }.run();
         RecheckFaces {
-            view,
+            bundle,
             recheck_words: &recheck_words,
             casters,
             caster_lights,
@@ -144,29 +154,34 @@ impl FrameOutputs {
             positions,
             lit: &mut self.lit,
             undecided: &mut undecided,
-            counters: &mut self.counters,
+            counters: &mut counters,
         }
         .run();
-        WriteRefineArgs { view, counters: &self.counters, refine_args: &mut self.refine_args }.run();
-        let (undecided, counters, lit) = (&undecided, &self.counters, &mut self.lit);
-        RefineFaces { view, undecided, counters, casters, caster_lights, faces, positions, lit }.run();
+        self.counters = counters[0].counts;
+        let (undecided, counters, lit) = (&undecided, &counters, &mut self.lit);
+        WriteRefineArgs { bundle, counters, refine_args: &mut self.refine_args }.run();
+        RefineFaces { bundle, undecided, counters, casters, caster_lights, faces, positions, lit }.run();
         let lit = &mut self.lit;
-        ResolveFaces { view, undecided, counters, casters, caster_lights, faces, positions, lit }.run();
+        ResolveFaces { bundle, undecided, counters, casters, caster_lights, faces, positions, lit }.run();
     }
 
     fn find_outline(&mut self, inputs: &FrameInputs) {
+        let edge_tests = &tests(inputs.edge_items);
+        let mut counters =
+            [SeatCounters { counts: self.counters, edge_tests: edge_tests.len() as u32, ..SeatCounters::default() }];
         DetectSilhouette {
-            view: inputs.view,
-            edge_items: inputs.edge_items,
+            bundle: &ViewBundle::of_one(inputs.view),
+            edge_tests,
             casters: inputs.casters,
             edges: inputs.edges,
             incidences: inputs.incidences,
             lit: &self.lit,
             silhouettes: &mut self.silhouettes,
             outline_sides: &mut self.outline_sides,
-            counters: &mut self.counters,
+            counters: &mut counters,
         }
         .run();
+        self.counters = counters[0].counts;
         self.silhouettes.truncate(self.counters.silhouette_edges as usize);
         WriteExtrudeArgs { view: inputs.view, counters: &self.counters, extrude_args: &mut self.extrude_args }.run();
     }

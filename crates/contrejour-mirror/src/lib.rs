@@ -10,16 +10,17 @@
 //!
 //! ```
 //! use contrejour_layout::{Counters, DispatchArgs, LightView};
-//! use contrejour_mirror::WriteRefineArgs;
+//! use contrejour_mirror::WriteExtrudeArgs;
 //!
-//! let view = LightView { undecided_capacity: 1000, ..Default::default() };
-//! let counters = Counters { undecided_near: 65, ..Default::default() };
-//! let mut refine_args = [DispatchArgs::default(); 2];
-//! WriteRefineArgs { view: &view, counters: &counters, refine_args: &mut refine_args }.run();
-//! assert_eq!(refine_args[0], DispatchArgs { x: 2, y: 1, z: 1 });
+//! let view = LightView { silhouette_capacity: 1000, ..Default::default() };
+//! let counters = Counters { silhouette_edges: 65, ..Default::default() };
+//! let mut extrude_args = [DispatchArgs::default(); 2];
+//! WriteExtrudeArgs { view: &view, counters: &counters, extrude_args: &mut extrude_args }.run();
+//! assert_eq!(extrude_args[0], DispatchArgs { x: 2, y: 1, z: 1 });
 //! ```
 
 mod build_corners;
+mod bundle;
 mod caster_position;
 mod classify_faces;
 mod deform_positions;

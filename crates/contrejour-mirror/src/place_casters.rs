@@ -1,19 +1,21 @@
-//! Brings the light and its clip space into the space of each caster, and leaves out casters that the view can't see.
+//! Brings the lights of a bundle and their clip spaces into the space of each caster, and leaves out casters that a view
+//! can't see.
 
 use contrejour_layout::{
-    CASTER_IN_VIEW, CASTER_NEVER, CasterLight, CasterPlace, Counters, LightView, VIEW_CULLS, VIEW_PANCAKES,
+    CASTER_IN_VIEW, CASTER_NEVER, CasterLight, CasterPlace, LightView, SeatCounters, VIEW_CULLS, VIEW_PANCAKES,
+    ViewBundle,
 };
 
 /// The stage `place_casters`: where casters stand to what the view's stages need of each.
 pub struct PlaceCasters<'a> {
-    /// The light, its clip space and how many casters there are.
-    pub view: &'a LightView,
+    /// The lights, their clip spaces and how many casters there are.
+    pub bundle: &'a ViewBundle,
     /// Where each caster stands.
     pub caster_places: &'a [CasterPlace],
-    /// The light as each caster sees it.
+    /// The light of each seat as each caster sees it.
     pub caster_lights: &'a mut [CasterLight],
-    /// Counts casters that cast, and those of them without an image.
-    pub counters: &'a mut Counters,
+    /// Counts casters that cast for each seat, and those of them without an image.
+    pub counters: &'a mut [SeatCounters],
 }
 
 type Columns = [[f32; 4]; 4];
@@ -24,17 +26,24 @@ impl PlaceCasters<'_> {
     /// # Panics
     ///
     /// When the buffers hold fewer casters than the view says.
-    pub fn run(self) {
-        let view = self.view;
-        for (place, caster_light) in self.caster_places.iter().zip(self.caster_lights).take(view.caster_count as usize)
-        {
+    pub fn run(mut self) {
+        for seat in 0..self.bundle.shape.seat_count as usize {
+            self.place_for(seat);
+        }
+    }
+
+    fn place_for(&mut self, seat: usize) {
+        let view = &self.bundle.views[seat];
+        let counts = &mut self.counters[seat].counts;
+        let of_seat = &mut self.caster_lights[seat * self.bundle.shape.caster_stride as usize..];
+        for (place, caster_light) in self.caster_places.iter().zip(of_seat).take(view.caster_count as usize) {
             *caster_light = CasterLight::default();
             let light = light_in_object_space(view, place);
             let matrix = clip_from_scaled(view, place);
             let has_place = place.casts != CASTER_NEVER && light.iter().all(|value| value.is_finite());
             if has_place && may_be_seen(view, place, &matrix) {
-                self.counters.casters += 1;
-                self.counters.imageless_casters += u32::from(!has_image(&matrix));
+                counts.casters += 1;
+                counts.imageless_casters += u32::from(!has_image(&matrix));
                 *caster_light = CasterLight {
                     light_object: light.map(f32::to_bits),
                     light_clip_from_object: if has_image(&matrix) { flat(&matrix) } else { [0.0; 16] },

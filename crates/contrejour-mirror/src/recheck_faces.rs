@@ -4,62 +4,67 @@
 //! The bound's proof stands in `shaders/compute/recheck_faces.wgsl`; it holds for any rounding, so it holds here. A GPU
 //! may round otherwise and list a few other faces; what both decide is equal.
 
-use contrejour_layout::{Caster, CasterLight, Counters, FACES_PER_WORD, Face, FaceRef, LightView, RecheckWord};
+use contrejour_layout::{Caster, CasterLight, FACES_PER_WORD, Face, FaceTest, RecheckWord, SeatCounters, ViewBundle};
 
-use crate::facing::{Bits3, FacingBits, NEAR_SPAN, set_lit};
+use crate::bundle::{caster_light_of, face_of, seat_of, set_lit, undecided_capacity};
+use crate::facing::{Bits3, FacingBits, NEAR_SPAN};
 
 /// The bindings of `recheck_faces`.
 pub struct RecheckFaces<'a> {
     /// The room in the list of undecided faces.
-    pub view: &'a LightView,
+    pub bundle: &'a ViewBundle,
     /// Words with faces to recheck.
     pub recheck_words: &'a [RecheckWord],
     /// Where the parts of each caster lie.
     pub casters: &'a [Caster],
-    /// The light as each caster sees it.
+    /// The light of each seat as each caster sees it.
     pub caster_lights: &'a [CasterLight],
     /// Pool of faces.
     pub faces: &'a [Face],
     /// Pool of positions, as bits.
     pub positions: &'a [u32],
-    /// One bit a face; those of lit faces are set.
+    /// One bit a face and seat; those of lit faces are set.
     pub lit: &'a mut [u32],
     /// Undecided faces: near ones from the front, far ones from the back.
-    pub undecided: &'a mut [FaceRef],
-    /// How many words there are; counts the undecided faces.
-    pub counters: &'a mut Counters,
+    pub undecided: &'a mut [FaceTest],
+    /// How many words there are; counts the undecided faces, for each seat and together.
+    pub counters: &'a mut [SeatCounters],
 }
 
 impl RecheckFaces<'_> {
     /// Does what the dispatch does.
     pub fn run(mut self) {
-        for word in &self.recheck_words[..self.counters.recheck_words as usize] {
-            for bit in (0..FACES_PER_WORD).filter(|bit| word.faces >> bit & 1 == 1) {
-                self.recheck(FaceRef { caster: word.caster, face_id: word.word * FACES_PER_WORD + bit });
+        for word in &self.recheck_words[..self.counters[0].recheck_words as usize] {
+            for bit in (0..FACES_PER_WORD).filter(|bit| word.tests >> bit & 1 == 1) {
+                self.recheck(FaceTest { caster: word.caster, test: word.word * FACES_PER_WORD + bit });
             }
         }
     }
 
-    fn recheck(&mut self, face_ref: FaceRef) {
-        let caster = &self.casters[face_ref.caster as usize];
-        let caster_light = &self.caster_lights[face_ref.caster as usize];
-        let face = self.faces[caster.first_face.wrapping_add(face_ref.face_id) as usize];
+    fn recheck(&mut self, tested: FaceTest) {
+        let FaceTest { caster: caster_id, test } = tested;
+        let (bundle, seat) = (self.bundle, seat_of(self.bundle, test));
+        let caster = &self.casters[caster_id as usize];
+        let caster_light = caster_light_of(bundle, self.caster_lights, seat, caster_id);
+        let face = self.faces[caster.first_face.wrapping_add(face_of(bundle, test)) as usize];
+        let capacity = undecided_capacity(bundle);
         match classify(caster, caster_light, face, self.positions) {
-            Verdict::Lit => set_lit(self.lit, caster, face_ref),
+            Verdict::Lit => set_lit(bundle, self.lit, caster, test),
             Verdict::Unlit => {}
             Verdict::UndecidedNear => {
-                let place = self.counters.undecided_near;
-                self.counters.undecided_near += 1;
-                if place < self.view.undecided_capacity {
-                    self.undecided[place as usize] = face_ref;
+                let place = self.counters[0].undecided_near;
+                self.counters[0].undecided_near += 1;
+                self.counters[seat as usize].counts.undecided_near += 1;
+                if place < capacity {
+                    self.undecided[place as usize] = tested;
                 }
             }
             Verdict::UndecidedFar => {
-                let place = self.counters.undecided_far;
-                self.counters.undecided_far += 1;
-                if place < self.view.undecided_capacity {
-                    let slot = self.view.undecided_capacity - 1 - place;
-                    self.undecided[slot as usize] = face_ref;
+                let place = self.counters[0].undecided_far;
+                self.counters[0].undecided_far += 1;
+                self.counters[seat as usize].counts.undecided_far += 1;
+                if place < capacity {
+                    self.undecided[(capacity - 1 - place) as usize] = tested;
                 }
             }
         }

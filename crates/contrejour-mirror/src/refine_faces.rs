@@ -1,40 +1,41 @@
 //! Decides by short integers the undecided faces whose coordinates have exponents close together.
 
-use contrejour_layout::{Caster, CasterLight, Counters, Face, FaceRef, LightView};
+use contrejour_layout::{Caster, CasterLight, Face, FaceTest, SeatCounters, ViewBundle};
 
-use crate::facing::{Bits3, FacingBits, grid_shift, is_negative, mantissa, set_lit};
+use crate::bundle::{caster_light_of, face_of, seat_of, set_lit, undecided_capacity};
+use crate::facing::{Bits3, FacingBits, grid_shift, is_negative, mantissa};
 
 /// The bindings of `refine_faces`.
 pub struct RefineFaces<'a> {
     /// The room in the list of undecided faces.
-    pub view: &'a LightView,
+    pub bundle: &'a ViewBundle,
     /// Undecided faces: near ones from the front.
-    pub undecided: &'a [FaceRef],
+    pub undecided: &'a [FaceTest],
     /// How many near ones there are.
-    pub counters: &'a Counters,
+    pub counters: &'a [SeatCounters],
     /// Where the parts of each caster lie.
     pub casters: &'a [Caster],
-    /// The light as each caster sees it.
+    /// The light of each seat as each caster sees it.
     pub caster_lights: &'a [CasterLight],
     /// Pool of faces.
     pub faces: &'a [Face],
     /// Pool of positions, as bits.
     pub positions: &'a [u32],
-    /// One bit a face; those of lit faces are set.
+    /// One bit a face and seat; those of lit faces are set.
     pub lit: &'a mut [u32],
 }
 
 impl RefineFaces<'_> {
     /// Does what the dispatch does.
     pub fn run(self) {
-        let count = self.counters.undecided_near.min(self.view.undecided_capacity);
-        for face_ref in &self.undecided[..count as usize] {
-            let caster = &self.casters[face_ref.caster as usize];
-            let caster_light = &self.caster_lights[face_ref.caster as usize];
-            let face = self.faces[caster.first_face.wrapping_add(face_ref.face_id) as usize];
+        let count = self.counters[0].undecided_near.min(undecided_capacity(self.bundle));
+        for &FaceTest { caster: caster_id, test } in &self.undecided[..count as usize] {
+            let caster = &self.casters[caster_id as usize];
+            let caster_light = caster_light_of(self.bundle, self.caster_lights, seat_of(self.bundle, test), caster_id);
+            let face = self.faces[caster.first_face.wrapping_add(face_of(self.bundle, test)) as usize];
             let bits = FacingBits::read(caster, caster_light, face, self.positions);
             if is_determinant_positive(&bits) {
-                set_lit(self.lit, caster, *face_ref);
+                set_lit(self.bundle, self.lit, caster, test);
             }
         }
     }

@@ -1,15 +1,15 @@
 //! Turns the number of words with faces to recheck into a dispatch.
 
-use contrejour_layout::{Counters, DispatchArgs, FACES_PER_WORD, LIT_WORDS_PER_BLOCK, LightView};
+use contrejour_layout::{DispatchArgs, FACES_PER_WORD, LIT_WORDS_PER_BLOCK, SeatCounters, ViewBundle};
 
 use crate::group_args::groups_for;
 
 /// The bindings of `write_recheck_args`.
 pub struct WriteRecheckArgs<'a> {
     /// How many blocks of faces there are.
-    pub view: &'a LightView,
+    pub bundle: &'a ViewBundle,
     /// How many words have faces to recheck.
-    pub counters: &'a Counters,
+    pub counters: &'a [SeatCounters],
     /// The dispatch of `recheck_faces`.
     pub recheck_args: &'a mut [DispatchArgs],
 }
@@ -17,20 +17,23 @@ pub struct WriteRecheckArgs<'a> {
 impl WriteRecheckArgs<'_> {
     /// Does what the dispatch does.
     pub fn run(self) {
-        let words = self.counters.recheck_words.min(self.view.face_block_count * LIT_WORDS_PER_BLOCK);
+        let room = self.bundle.views[0].face_block_count * LIT_WORDS_PER_BLOCK * self.bundle.shape.seat_count;
+        let words = self.counters[0].recheck_words.min(room);
         self.recheck_args[0] = groups_for(words * FACES_PER_WORD);
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use contrejour_layout::LightView;
+
     use super::*;
 
     fn args(words: u32) -> DispatchArgs {
-        let view = LightView { face_block_count: 1 << 20, ..Default::default() };
-        let counters = Counters { recheck_words: words, ..Default::default() };
+        let bundle = ViewBundle::of_one(&LightView { face_block_count: 1 << 20, ..Default::default() });
+        let counters = [SeatCounters { recheck_words: words, ..Default::default() }];
         let mut recheck_args = [DispatchArgs::default()];
-        WriteRecheckArgs { view: &view, counters: &counters, recheck_args: &mut recheck_args }.run();
+        WriteRecheckArgs { bundle: &bundle, counters: &counters, recheck_args: &mut recheck_args }.run();
         recheck_args[0]
     }
 

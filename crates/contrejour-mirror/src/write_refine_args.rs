@@ -1,15 +1,16 @@
 //! Turns the numbers of undecided faces into dispatches.
 
-use contrejour_layout::{Counters, DispatchArgs, LightView};
+use contrejour_layout::{DispatchArgs, SeatCounters, ViewBundle};
 
+use crate::bundle::undecided_capacity;
 use crate::group_args::groups_for;
 
 /// The bindings of `write_refine_args`.
 pub struct WriteRefineArgs<'a> {
     /// Room in the list of undecided faces.
-    pub view: &'a LightView,
+    pub bundle: &'a ViewBundle,
     /// How many faces are undecided.
-    pub counters: &'a Counters,
+    pub counters: &'a [SeatCounters],
     /// The dispatches of `refine_faces` and of `resolve_faces`.
     pub refine_args: &'a mut [DispatchArgs],
 }
@@ -17,21 +18,23 @@ pub struct WriteRefineArgs<'a> {
 impl WriteRefineArgs<'_> {
     /// Does what the dispatch does.
     pub fn run(self) {
-        let capacity = self.view.undecided_capacity;
-        self.refine_args[0] = groups_for(self.counters.undecided_near.min(capacity));
-        self.refine_args[1] = groups_for(self.counters.undecided_far.min(capacity));
+        let capacity = undecided_capacity(self.bundle);
+        self.refine_args[0] = groups_for(self.counters[0].undecided_near.min(capacity));
+        self.refine_args[1] = groups_for(self.counters[0].undecided_far.min(capacity));
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use contrejour_layout::LightView;
+
     use super::*;
 
     fn args(near: u32, far: u32) -> [DispatchArgs; 2] {
-        let view = LightView { undecided_capacity: u32::MAX, ..Default::default() };
-        let counters = Counters { undecided_near: near, undecided_far: far, ..Default::default() };
+        let bundle = ViewBundle::of_one(&LightView { undecided_capacity: u32::MAX, ..Default::default() });
+        let counters = [SeatCounters { undecided_near: near, undecided_far: far, ..Default::default() }];
         let mut refine_args = [DispatchArgs::default(); 2];
-        WriteRefineArgs { view: &view, counters: &counters, refine_args: &mut refine_args }.run();
+        WriteRefineArgs { bundle: &bundle, counters: &counters, refine_args: &mut refine_args }.run();
         refine_args
     }
 

@@ -1,7 +1,8 @@
 //! The four tiers of facing against exact arithmetic, on random and on hostile faces.
 
 use contrejour_layout::{
-    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, Caster, CasterLight, Counters, Face, FaceRef, LightView, RecheckWord, WorkItem,
+    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, Caster, CasterLight, Face, FaceTest, LightView, RecheckWord, SeatCounters,
+    TestItem, ViewBundle,
 };
 use contrejour_mesh::FacePlanes;
 use contrejour_mirror::{ClassifyFaces, RecheckFaces, RefineFaces, ResolveFaces};
@@ -37,12 +38,12 @@ struct OneFace {
     planes: FacePlanes,
     lit: [u32; 2],
     recheck_words: [RecheckWord; 2],
-    undecided: [FaceRef; 1],
-    counters: Counters,
+    undecided: [FaceTest; 1],
+    counters: [SeatCounters; 1],
 }
 
-fn view() -> LightView {
-    LightView { face_block_count: 1, undecided_capacity: 1, ..Default::default() }
+fn bundle() -> ViewBundle {
+    ViewBundle::of_one(&LightView { face_block_count: 1, undecided_capacity: 1, ..Default::default() })
 }
 
 impl OneFace {
@@ -65,14 +66,14 @@ impl OneFace {
             lit: [u32::MAX; 2],
             recheck_words: Default::default(),
             undecided: Default::default(),
-            counters: Counters { face_items: 1, ..Counters::default() },
+            counters: [SeatCounters { face_tests: 1, ..SeatCounters::default() }],
         }
     }
 
     fn classify(&mut self, kind: u32) {
         ClassifyFaces {
-            view: &view(),
-            face_items: &[WorkItem { kind, ..Default::default() }],
+            bundle: &bundle(),
+            face_tests: &[TestItem { kind, seats: 1, ..Default::default() }],
             casters: &self.casters,
             caster_lights: &self.caster_lights,
             planes: &self.planes.planes,
@@ -85,7 +86,7 @@ impl OneFace {
 
     fn recheck(&mut self) {
         RecheckFaces {
-            view: &view(),
+            bundle: &bundle(),
             recheck_words: &self.recheck_words,
             casters: &self.casters,
             caster_lights: &self.caster_lights,
@@ -100,7 +101,7 @@ impl OneFace {
 
     fn refine(&mut self) {
         RefineFaces {
-            view: &view(),
+            bundle: &bundle(),
             undecided: &self.undecided,
             counters: &self.counters,
             casters: &self.casters,
@@ -114,11 +115,11 @@ impl OneFace {
 
     /// Near faces too.
     fn resolve(&mut self) {
-        let undecided_far = self.counters.undecided_near + self.counters.undecided_far;
+        let undecided_far = self.counters[0].undecided_near + self.counters[0].undecided_far;
         ResolveFaces {
-            view: &view(),
+            bundle: &bundle(),
             undecided: &self.undecided,
-            counters: &Counters { undecided_far, ..self.counters },
+            counters: &[SeatCounters { undecided_far, ..self.counters[0] }],
             casters: &self.casters,
             caster_lights: &self.caster_lights,
             faces: &self.faces,
@@ -133,11 +134,11 @@ fn decide(case: &Case) -> Decision {
     let mut face = OneFace::new(case);
     let fits = face.planes.block_fits(0);
     face.classify(if fits { BLOCK_BY_PLANES } else { BLOCK_BY_POSITIONS });
-    let by_plane = face.counters.recheck_words == 0;
+    let by_plane = face.counters[0].recheck_words == 0;
     face.recheck();
     let undecided = face.lit;
     face.refine();
-    let lit = if face.counters.undecided_near > 0 { Some(face.lit) } else { None };
+    let lit = if face.counters[0].undecided_near > 0 { Some(face.lit) } else { None };
     face.lit = undecided;
     face.resolve();
     if let Some(lit) = lit {
@@ -150,7 +151,7 @@ fn decide(case: &Case) -> Decision {
     by_positions.recheck();
     by_positions.resolve();
     assert_eq!(face.lit, by_positions.lit, "planes and positions differ on {case:?}");
-    let Counters { undecided_near: near, undecided_far: far, .. } = face.counters;
+    let SeatCounters { undecided_near: near, undecided_far: far, .. } = face.counters[0];
     Decision { by_plane, near, far, lit: face.lit[0] == 1 }
 }
 

@@ -45,11 +45,16 @@ pub fn frame_plans(scene: &Scene, device: &DeviceFacts) -> Result<Vec<LightPlan>
     let facts = scene_facts(scene, &local, device)?;
     let eye = local.camera(&scene.camera).as_eye(scene.aspect());
     let casting = || scene.lights.iter().enumerate().filter(|(_, light)| light.casts);
+    let views_of = |light: &SceneLight| -> Result<_, FramePlanError> {
+        Ok(frame_views(&local.light(&light.light), Some(&eye), &light.shadow)?.views)
+    };
+    let all_views = casting().map(|(_, light)| Ok(views_of(light)?.len())).sum::<Result<usize, FramePlanError>>()?;
     let plan_of = |light: &SceneLight, shared: &[BufferKind]| -> Result<FramePlan, FramePlanError> {
-        let views = frame_views(&local.light(&light.light), Some(&eye), &light.shadow)?.views;
+        let views = &views_of(light)?;
         let (outputs, capacity) = (Outputs::Maps, Capacity::default());
         let settings = &light.shadow;
-        let input = PlanInput { scene: &facts, views: &views, settings, device, outputs, capacity, shared, made: &[] };
+        let (scene, made) = (&facts, &[]);
+        let input = PlanInput { scene, views, all_views, settings, device, outputs, capacity, shared, made };
         Ok(FramePlan::new(&input)?)
     };
     let plans = shared_plans(|shared| casting().map(|(_, light)| plan_of(light, shared)).collect())?;

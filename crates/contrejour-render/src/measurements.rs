@@ -143,7 +143,8 @@ impl CounterLog {
                 self.entries_in_sheet = 0;
             }
             let sheet = self.sheet.get_or_insert_with(|| new_sheet(gpu));
-            encoder.copy_buffer_to_buffer(counters, 0, sheet, self.entries_in_sheet * COUNTERS_BYTES, COUNTERS_BYTES);
+            let (from, to) = (counters.offset(), self.entries_in_sheet * COUNTERS_BYTES);
+            encoder.copy_buffer_to_buffer(counters.buffer(), from, sheet, to, COUNTERS_BYTES);
             self.entries_in_sheet += 1;
             self.entries_of_frame += 1;
         }
@@ -181,7 +182,7 @@ fn new_sheet(gpu: &Gpu) -> wgpu::Buffer {
 }
 
 fn read_sheet(gpu: &Gpu, sheet: &wgpu::Buffer, entries: u64) -> Result<Vec<Counters>, ReadError> {
-    Ok(bytemuck::pod_collect_to_vec(&read_buffer(gpu, sheet, entries * COUNTERS_BYTES)?))
+    Ok(bytemuck::pod_collect_to_vec(&read_buffer(gpu, sheet.slice(..), entries * COUNTERS_BYTES)?))
 }
 
 #[cfg(test)]

@@ -19,29 +19,29 @@ pub enum ReadError {
 }
 
 /// Records a copy of a buffer, to be read when the commands have run: for lists that later commands fill anew.
-pub fn copied_buffer(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) -> wgpu::Buffer {
+pub fn copied_buffer(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, part: wgpu::BufferSlice<'_>) -> wgpu::Buffer {
     let copy = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("copied list"),
-        size: buffer.size(),
+        size: part.size(),
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: false,
     });
-    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+    encoder.copy_buffer_to_buffer(part.buffer(), part.offset(), &copy, 0, part.size());
     copy
 }
 
-/// Reads the first `size` bytes of a buffer.
+/// Reads the first `size` bytes of a part of a buffer.
 ///
 /// # Errors
 ///
 /// [`ReadError`] when the device fails.
-pub fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, ReadError> {
+pub fn read_buffer(gpu: &Gpu, part: wgpu::BufferSlice<'_>, size: u64) -> Result<Vec<u8>, ReadError> {
     if size == 0 {
         return Ok(Vec::new());
     }
     let staging = staging_buffer(gpu, size);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
+    encoder.copy_buffer_to_buffer(part.buffer(), part.offset(), &staging, 0, size);
     gpu.queue.submit([encoder.finish()]);
     read_staging(gpu, &staging)
 }

@@ -20,7 +20,7 @@ pub fn read_silhouettes(gpu: &Gpu, shadows: &Shadows) -> Result<Vec<SilhouetteEd
 /// Reads the edges of lists that lie beside their counters, sorted; an edge that is in several of them comes several times.
 pub(crate) fn read_pages<'a>(
     gpu: &Gpu,
-    pages: impl Iterator<Item = (&'a wgpu::Buffer, &'a wgpu::Buffer)>,
+    pages: impl Iterator<Item = (wgpu::BufferSlice<'a>, wgpu::BufferSlice<'a>)>,
 ) -> Result<Vec<SilhouetteEdge>, ReadError> {
     let mut edges = Vec::new();
     for (counters, silhouettes) in pages {

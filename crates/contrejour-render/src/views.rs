@@ -190,7 +190,8 @@ impl Renderer {
         });
         gpu.queue.submit([encoder.finish()]);
         let read = |(light, counters, silhouettes): &(LightHandle, Vec<wgpu::Buffer>, Vec<wgpu::Buffer>)| {
-            Ok((*light, read_pages(gpu, counters.iter().zip(silhouettes))?))
+            let pages = counters.iter().zip(silhouettes).map(|(counters, list)| (counters.slice(..), list.slice(..)));
+            Ok((*light, read_pages(gpu, pages)?))
         };
         copies.iter().map(read).collect()
     }

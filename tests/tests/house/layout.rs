@@ -39,6 +39,8 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("MASK_CLAMP", layout::MASK_CLAMP),
     ("VIEW_CULLS", layout::VIEW_CULLS),
     ("VIEW_PANCAKES", layout::VIEW_PANCAKES),
+    ("VIEW_TESTS", layout::VIEW_TESTS),
+    ("MAX_SEATS", layout::MAX_SEATS),
 ];
 
 /// Compares the structs of a module with those of the same names in Rust; returns the names that it has.

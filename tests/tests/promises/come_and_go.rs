@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contrejour_gpu::{CasterInput, MeshHandle, Positions, RemoveMeshError};
-use contrejour_layout::{BLOCK_SIZE, Caster, CasterPlace, LightView, NO_CASTER, WorkItem};
+use contrejour_layout::{BLOCK_SIZE, BundleShape, Caster, CasterPlace, LightView, NO_CASTER, WorkItem};
 use contrejour_mesh::{AlphaMask, BuildOptions, MaskImage, MaskedMesh, Motion, TextureFilter, TopologyAwareMesh};
 use contrejour_plan::{BufferKind, Light};
 use contrejour_scene::shapes::Shape;
@@ -263,7 +263,7 @@ fn thousands_leave_what_a_fresh_scene_leaves(gpu: &Gpu) -> Outcome {
             bustle.scene.frame().map_err(at)?;
             frames += 1;
             let (uploaded, came) = (bustle.scene.shadows.stats().set_up_bytes, std::mem::take(&mut bustle.tally.bytes));
-            if uploaded > came {
+            if uploaded > came + GROWN_BYTES {
                 return Err(format!("step {step}: {uploaded} bytes are uploaded for {came} that came"));
             }
             let buffer = bustle.scene.buffer(BufferKind::Faces);
@@ -366,6 +366,9 @@ fn found(what: &str, difference: &str, expected: &Left, left: &Left) -> Outcome 
     }
 }
 
+/// What is uploaded where lists grow: how 1, 2, 4 and 8 views share them.
+const GROWN_BYTES: u64 = 4 * size_of::<BundleShape>() as u64;
+
 /// A caster comes with its mesh, another one without, one leaves, and one comes to its place: each uploads the same
 /// whether 10 others stay or 1000, and a light far away keeps its maps.
 fn what_stays_is_not_uploaded(gpu: &Gpu) -> Outcome {
@@ -373,7 +376,8 @@ fn what_stays_is_not_uploaded(gpu: &Gpu) -> Outcome {
     let many = bytes_beside(gpu, 1000)?;
     let mesh = torus(13, 11);
     let (of_mesh, of_caster, left) = (mesh_bytes(&mesh), caster_bytes(&mesh), block_bytes(&mesh));
-    let expected = [of_mesh + of_caster, of_caster, left, of_caster, 0, of_mesh, 0];
+    // The lists of a first caster more have to grow.
+    let expected = [of_mesh + of_caster + GROWN_BYTES, of_caster, left, of_caster, 0, of_mesh, 0];
     if few != many || few.map(|[set_up, _]| set_up) != expected {
         return Err(format!("beside 10 {few:?}, beside 1000 {many:?} bytes; {expected:?} are set up for what came"));
     }

@@ -116,7 +116,7 @@ fn a_frame_that_failed_is_made_again() -> Outcome {
     let gpu = gpu_alone()?;
     let mut pipeline = Pipeline::new(&gpu, &mesh, &small(Technique::default()))?;
     let before = left_by(&gpu, &mut pipeline, &light)?;
-    pipeline.shadows.buffer(BufferKind::Casters).ok_or("there are casters")?.destroy();
+    pipeline.shadows.buffer(BufferKind::Casters).ok_or("there are casters")?.buffer().destroy();
 
     // A caster comes and another goes, so the records of all are written again.
     pipeline.replace_last();

@@ -120,7 +120,7 @@ fn lit_words_of_device(
     let counters = shadows.wait_for_counters(&gpu.device).map_err(|error| error.to_string())?;
     drop(waiting);
     let lit = shadows.buffer(BufferKind::Lit).ok_or("a frame with faces has lit bits")?;
-    let words = gpu.read_back(lit, word_count(caster));
+    let words = gpu.read_part(lit, word_count(caster));
     shadows.remove_light(light).map_err(|error| error.to_string())?;
     shadows.remove_caster(handle).map_err(|error| error.to_string())?;
     Ok((words, counters))

@@ -155,11 +155,11 @@ fn frame(view: &View) -> Frame {
 }
 
 fn quads(frame: &Frame) -> &[Quad] {
-    &frame.quads[..frame.counters.quads as usize]
+    &frame.quads[..frame.counts().quads as usize]
 }
 
 fn corners(frame: &Frame) -> &[Corner] {
-    &frame.corners[..frame.counters.corners as usize]
+    &frame.corners[..frame.counts().corners as usize]
 }
 
 fn faces_agree_by_definition() -> Outcome {

@@ -119,7 +119,7 @@ fn check_buffers(pipeline: &Pipeline<'_>, plan: &FramePlan) -> Outcome {
     for kind in BufferKind::ALL {
         let listed: Vec<_> =
             plan.buffers.iter().filter(|buffer| buffer.kind == kind).map(|buffer| buffer.bytes).collect();
-        let made: Vec<_> = pipeline.shadows.buffers(kind).map(wgpu::Buffer::size).collect();
+        let made: Vec<_> = pipeline.shadows.buffers(kind).map(|part| part.buffer().size()).collect();
         if listed != made {
             return Err(format!("{kind:?} is listed with {listed:?} bytes and made with {made:?}"));
         }

@@ -117,11 +117,11 @@ fn twin(mesh: &TestMesh, light: &Light) -> Frame {
 }
 
 fn check_all_are_there(pipeline: &Pipeline<'_>, twin: &Frame) -> Outcome {
-    let expected = &twin.quads[..twin.counters.quads as usize];
+    let expected = &twin.quads[..twin.counts().quads as usize];
     if keys(&pipeline.quads()) != keys(expected) || keys(expected).len() != expected.len() {
         return Err("the quads are not all".into());
     }
-    let expected = &twin.corners[..twin.counters.corners as usize];
+    let expected = &twin.corners[..twin.counts().corners as usize];
     if keys(&pipeline.corners()) != keys(expected) {
         return Err("the corners are not all".into());
     }

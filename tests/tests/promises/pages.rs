@@ -149,7 +149,8 @@ fn missing_neighbours_are_found(gpu: &Gpu) -> Outcome {
     compare(&left_by(gpu, &mut whole, &lights[0])?, &left_by(&small, &mut pipeline, &lights[0])?)?;
 
     let pages = pipeline.plan().map_or(&[][..], |plan| &plan.pages);
-    for (page, buffer) in pages.iter().zip(pipeline.shadows.buffers(BufferKind::VertexEdges)) {
+    for (page, part) in pages.iter().zip(pipeline.shadows.buffers(BufferKind::VertexEdges)) {
+        let buffer = part.buffer();
         let [piece] = page.pieces.as_slice() else { return Err("one mesh has one piece on each page".into()) };
         small.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&lists_of_own_edges(&small, &mesh, piece, buffer)));
     }

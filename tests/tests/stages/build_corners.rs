@@ -16,7 +16,7 @@ use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
 use libtest_mimic::Trial;
 
 use crate::outline_balls::{Direction, Image, image};
-use crate::parity::{for_each_case, for_each_smooth_case, run, stage};
+use crate::parity::{counts_of, for_each_case, for_each_smooth_case, run, stage};
 
 /// Of the ends of all cases together, one in so many may be decided by rounding.
 const DECIDED_BY_ROUNDING: usize = 100;
@@ -40,13 +40,13 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
         let args = twin.extrude_args[1];
         let outputs = run(gpu, &stage, &twin, args.x * args.y);
         twin.run_mirror("build_corners");
-        let counters = outputs.get::<Counters>("counters")[0];
+        let counters = counts_of(&outputs);
         let found: Vec<Corner> = outputs.get("corners");
-        let expected = &twin.corners[..twin.counters.corners as usize];
+        let expected = &twin.corners[..twin.counts().corners as usize];
         corners += expected.len();
         different += compare(&twin, expected, &found[..counters.corners as usize])?;
         let without = |counters: Counters| Counters { corners: 0, ..counters };
-        if without(counters) == without(twin.counters) {
+        if without(counters) == without(*twin.counts()) {
             return Ok(());
         }
         Err(format!("other counters changed: {counters:?}"))
@@ -65,7 +65,7 @@ fn compare(frame: &Frame, expected: &[Corner], found: &[Corner]) -> Result<usize
         return Err("an end has two corners".into());
     }
     let mut different = 0;
-    for quad in &frame.quads[..frame.counters.quads as usize] {
+    for quad in &frame.quads[..frame.counts().quads as usize] {
         for (end, vertex) in [(OWN_END_LOW, quad.low_vertex), (OWN_END_HIGH, quad.high_vertex)] {
             let key = [quad.caster, quad.edge_id, vertex];
             let (expected, found) = (expected_by_key.get(&key), found_by_key.get(&key));
@@ -106,7 +106,8 @@ fn tolerance(frame: &Frame, quad: &Quad, vertex: u32) -> Option<f64> {
     for index in first..last {
         let word = (caster.first_vertex_edge_word + 2 * index) as usize;
         let (edge_id, other) = (frame.vertex_edges[word], frame.vertex_edges[word + 1]);
-        let side_word = frame.outline_sides[(caster.first_outline_word + edge_id / 16) as usize];
+        let side_word = frame.outline_sides
+            [frame.begin(frame.bundle.shape.outline_stride) + (caster.first_outline_word + edge_id / 16) as usize];
         if edge_id != quad.edge_id && side_word >> (edge_id % 16 * 2) & 3 != OUTLINE_NONE {
             let direction = line(frame, quad.caster, vertex, other)?;
             error = error.max(own.error + from_quad.error + direction.error);
@@ -139,15 +140,15 @@ fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
     for_each_case("build_corners", |case| {
         let args = case.frame.extrude_args[1];
         let complete = run(gpu, &stage, &case.frame, args.x * args.y);
-        let counters: Counters = complete.get("counters")[0];
+        let counters = counts_of(&complete);
         let Some(room) = counters.corners.checked_sub(1) else { return Ok(()) };
         let all: Vec<Corner> = complete.get("corners");
 
         let mut frame = case.frame.clone();
-        frame.set_room(ViewCounts { corners: room, quads: frame.view.quad_capacity, ..Default::default() });
+        frame.set_room(ViewCounts { corners: room, quads: frame.view().quad_capacity, ..Default::default() });
         frame.quads.clone_from(&case.frame.quads);
         let outputs = run(gpu, &stage, &frame, args.x * args.y);
-        if outputs.get::<Counters>("counters")[0] != counters {
+        if counts_of(&outputs) != counters {
             return Err("the counters depend on the room".into());
         }
         let found: Vec<Corner> = outputs.get("corners");
@@ -171,7 +172,7 @@ fn comparer_finds_planted_faults() -> Outcome {
     for_each_smooth_case("build_corners", |case| {
         let mut twin = case.frame.clone();
         twin.run_mirror("build_corners");
-        let expected = &twin.corners[..twin.counters.corners as usize];
+        let expected = &twin.corners[..twin.counts().corners as usize];
         for (index, fault) in (0..expected.len()).step_by(7).zip((0..faults.len()).cycle()) {
             let mut faulty = expected.to_vec();
             faults[fault](&mut faulty, index);

@@ -1,6 +1,6 @@
 //! Lit bits to silhouette edges.
 
-use contrejour_layout::{Counters, SilhouetteEdge};
+use contrejour_layout::{SeatCounters, SilhouetteEdge};
 use contrejour_plan::ViewCounts;
 use contrejour_tests::compare::{compare_exact, compare_records};
 use contrejour_tests::frame::Frame;
@@ -38,14 +38,17 @@ fn equals_its_twin_on_random_bits(gpu: &Gpu) -> Outcome {
 fn compare(gpu: &Gpu, stage: &StageRun, frame: &Frame) -> Outcome {
     let mut twin = frame.clone();
     twin.outline_sides.fill(u32::MAX);
-    let outputs = run(gpu, stage, &twin, twin.counters.edge_items);
+    let outputs = run(gpu, stage, &twin, twin.counters[0].edge_tests);
     twin.run_mirror("detect_silhouette");
-    let counters: Vec<Counters> = outputs.get("counters");
-    compare_exact("counters", &[twin.counters], &counters)?;
+    compare_exact("counters", &twin.counters, &outputs.get::<SeatCounters>("counters"))?;
     compare_exact("outline_sides", &twin.outline_sides, &outputs.get("outline_sides"))?;
-    let count = twin.counters.silhouette_edges as usize;
     let found: Vec<SilhouetteEdge> = outputs.get("silhouettes");
-    compare_records("silhouette", &twin.silhouettes[..count], &found[..count], 0.0)
+    for (counters, seat) in twin.counters.iter().zip(0..) {
+        let begin = seat * twin.bundle.shape.silhouette_stride as usize;
+        let of_seat = begin..begin + counters.counts.silhouette_edges as usize;
+        compare_records(&format!("silhouette of {seat}"), &twin.silhouettes[of_seat.clone()], &found[of_seat], 0.0)?;
+    }
+    Ok(())
 }
 
 fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
@@ -53,16 +56,22 @@ fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
     for_each_case("detect_silhouette", |case| {
         let mut complete = case.frame.clone();
         complete.run_mirror("detect_silhouette");
-        let Some(room) = complete.counters.silhouette_edges.checked_sub(1) else { return Ok(()) };
+        let most = complete.counters.iter().map(|counters| counters.counts.silhouette_edges).max();
+        let Some(room) = most.and_then(|most| most.checked_sub(1)) else { return Ok(()) };
 
         let mut frame = case.frame.clone();
         frame.set_room(ViewCounts { silhouettes: room, ..Default::default() });
-        let outputs = run(gpu, &stage, &frame, frame.counters.edge_items);
-        compare_exact("counters", &[complete.counters], &outputs.get::<Counters>("counters"))?;
+        let outputs = run(gpu, &stage, &frame, frame.counters[0].edge_tests);
+        compare_exact("counters", &complete.counters, &outputs.get::<SeatCounters>("counters"))?;
         let found: Vec<SilhouetteEdge> = outputs.get("silhouettes");
-        for edge in &found {
-            if !complete.silhouettes.contains(edge) {
-                return Err(format!("{edge:?} is not in the complete list"));
+        for seat in 0..frame.counters.len() {
+            let [of_complete, of_frame] =
+                [&complete, &frame].map(|frame| seat * frame.bundle.shape.silhouette_stride as usize);
+            let all = &complete.silhouettes[of_complete..][..complete.bundle.shape.silhouette_stride as usize];
+            for edge in &found[of_frame..][..frame.bundle.shape.silhouette_stride as usize] {
+                if !all.contains(edge) {
+                    return Err(format!("{edge:?} is not in the complete list of {seat}"));
+                }
             }
         }
         Ok(())

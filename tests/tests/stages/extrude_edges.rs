@@ -18,7 +18,7 @@ use contrejour_tests::stage_run::StageRun;
 use libtest_mimic::Trial;
 
 use crate::outline_balls::{Clip, Image, clip_and_delta, image, ndc_of, q_of, widest_of, width_of};
-use crate::parity::{for_each_case, for_each_smooth_case, run, stage};
+use crate::parity::{counts_of, for_each_case, for_each_smooth_case, run, stage};
 
 /// Of the edges of all cases together, one in so many may be decided by rounding.
 const DECIDED_BY_ROUNDING: usize = 100;
@@ -78,17 +78,17 @@ fn compare_with_twin(gpu: &Gpu, stage: &StageRun) -> Outcome {
         let args = twin.extrude_args[0];
         let outputs = run(gpu, stage, &twin, args.x * args.y);
         twin.run_mirror("extrude_edges");
-        let counters = outputs.get::<Counters>("counters")[0];
+        let counters = counts_of(&outputs);
         let found: Vec<Quad> = outputs.get("quads");
         let found = &found[..counters.quads as usize];
-        let expected = &twin.quads[..twin.counters.quads as usize];
+        let expected = &twin.quads[..twin.counts().quads as usize];
         quads += expected.len();
 
         let by_rounding = compare(&twin, expected, found)?;
         different += by_rounding;
         check_point_edges(&twin, counters.point_edges)?;
         let without = |counters: Counters| Counters { quads: 0, point_edges: 0, ..counters };
-        if without(counters) != without(twin.counters) {
+        if without(counters) != without(*twin.counts()) {
             return Err(format!("other counters changed: {counters:?}"));
         }
         found.iter().try_for_each(|quad| {
@@ -105,7 +105,8 @@ fn compare_with_twin(gpu: &Gpu, stage: &StageRun) -> Outcome {
 /// Outline edges whose image is a point on the device: as many as in the twin, but for those where rounding decides,
 /// many of which are out of view and have no quad either way.
 fn check_point_edges(twin: &Frame, found: u32) -> Outcome {
-    let silhouettes = &twin.silhouettes[..twin.counters.silhouette_edges as usize];
+    let first = twin.begin(twin.bundle.shape.silhouette_stride);
+    let silhouettes = &twin.silhouettes[first..][..twin.counts().silhouette_edges as usize];
     let (mut certain, mut possible) = (0, 0);
     for silhouette in silhouettes.iter().filter(|silhouette| silhouette.left == 0 || silhouette.right == 0) {
         let edge = twin.edges[(twin.casters[silhouette.caster as usize].first_edge + silhouette.edge_id) as usize];
@@ -116,7 +117,7 @@ fn check_point_edges(twin: &Frame, found: u32) -> Outcome {
         }
     }
     let expected = certain..=certain + possible;
-    for (side, count) in [("the device", found), ("the twin", twin.counters.point_edges)] {
+    for (side, count) in [("the device", found), ("the twin", twin.counts().point_edges)] {
         if !expected.contains(&count) {
             return Err(format!("{count} point edges on {side}, {expected:?} expected"));
         }
@@ -165,11 +166,11 @@ fn are_equal(frame: &Frame, expected: &Quad, found: &Quad) -> Result<bool, Strin
         let within = (0..2).all(|index| balls[index].allows(expected[index], found[index]));
         within.then_some(()).ok_or_else(|| format!("{} within {balls:?}", differs(field)))
     };
-    let q = [q_of(&frame.view, &low), q_of(&frame.view, &high)];
+    let q = [q_of(frame.view(), &low), q_of(frame.view(), &high)];
     check("low_ndc", ndc_of(&low), expected.low_ndc, found.low_ndc)?;
     check("high_ndc", ndc_of(&high), expected.high_ndc, found.high_ndc)?;
     check("q", q, expected.q, found.q)?;
-    check("width_ndc", q.map(|q| width_of(&frame.view, q)), expected.width_ndc, found.width_ndc)?;
+    check("width_ndc", q.map(|q| width_of(frame.view(), q)), expected.width_ndc, found.width_ndc)?;
     if let Image::Line(direction) = image(frame, expected.caster, expected.low_vertex, expected.high_vertex) {
         let outward = Ball { value: 0.0, error: direction.error };
         check("outward", [outward; 2], expected.outward, found.outward)?;
@@ -184,13 +185,13 @@ fn clip(frame: &Frame, quad: &Quad) -> Option<Clipped> {
     let (high, _) = clip_and_delta(frame, quad.caster, quad.high_vertex, quad.low_vertex);
     let one = Ball::exact(1.0);
     let mut span = Span { begin: None, end: None };
-    if frame.view.flags & VIEW_PANCAKES == 0 {
+    if frame.view().flags & VIEW_PANCAKES == 0 {
         span.cut(low[2], high[2])?;
     }
     span.cut(low[3] - low[2], high[3] - high[2])?;
     let (near_end, far_end) = span.ends(&low, &high, &delta);
-    let width_at = |clip: &Clip| width_of(&frame.view, q_of(&frame.view, clip));
-    let side = one + widest_of(&frame.view, width_at(&near_end).max(width_at(&far_end)));
+    let width_at = |clip: &Clip| width_of(frame.view(), q_of(frame.view(), clip));
+    let side = one + widest_of(frame.view(), width_at(&near_end).max(width_at(&far_end)));
     for axis in 0..2 {
         span.cut(side * low[3] + low[axis], side * high[3] + high[axis])?;
         span.cut(side * low[3] - low[axis], side * high[3] - high[axis])?;
@@ -238,16 +239,16 @@ fn counts_past_a_full_list(gpu: &Gpu) -> Outcome {
     for_each_case("extrude_edges", |case| {
         let args = case.frame.extrude_args[0];
         let complete = run(gpu, &stage, &case.frame, args.x * args.y);
-        let counters: Counters = complete.get("counters")[0];
+        let counters = counts_of(&complete);
         let Some(room) = counters.quads.checked_sub(1) else { return Ok(()) };
         let all: Vec<Quad> = complete.get("quads");
 
         let mut frame = case.frame.clone();
-        frame.view.quad_capacity = room;
-        frame.set_room(ViewCounts { quads: room, silhouettes: frame.view.silhouette_capacity, ..Default::default() });
+        let silhouettes = frame.view().silhouette_capacity;
+        frame.set_room(ViewCounts { quads: room, silhouettes, ..Default::default() });
         frame.silhouettes.clone_from(&case.frame.silhouettes);
         let outputs = run(gpu, &stage, &frame, args.x * args.y);
-        if outputs.get::<Counters>("counters")[0] != counters {
+        if counts_of(&outputs) != counters {
             return Err("the counters depend on the room".into());
         }
         let found: Vec<Quad> = outputs.get("quads");
@@ -270,7 +271,7 @@ fn comparer_finds_planted_faults() -> Outcome {
     ];
     let (mut planted, mut found) = ([0; 6], [0; 6]);
     for_each_smooth_case("build_corners", |case| {
-        let expected = &case.frame.quads[..case.frame.counters.quads as usize];
+        let expected = &case.frame.quads[..case.frame.counts().quads as usize];
         for (index, fault) in (0..expected.len()).step_by(7).zip((0..faults.len()).cycle()) {
             let mut faulty = expected.to_vec();
             faults[fault](&mut faulty, index);

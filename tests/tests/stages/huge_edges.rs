@@ -1,7 +1,7 @@
 //! Edges that are far larger than the view: where they are cut off, rounding is as large as the view itself, and can put
 //! the cut end into the plane of the light, where it has no image.
 
-use contrejour_layout::{Counters, LightView, OWN_END_HIGH, OWN_END_LOW, Quad};
+use contrejour_layout::{LightView, OWN_END_HIGH, OWN_END_LOW, Quad};
 use contrejour_plan::{Light, LightKind, ShadowSettings};
 use contrejour_tests::chain::{Fault, check_each_is_found};
 use contrejour_tests::frame::Frame;
@@ -13,7 +13,7 @@ use contrejour_tests::stage_run::StageRun;
 use glam::{DVec3, Vec3};
 use libtest_mimic::Trial;
 
-use crate::parity::{run, stage};
+use crate::parity::{counts_of, run, stage};
 
 /// Beyond these, an edge that passes the view points at the light but for rounding, and its image is a point.
 const SIZES: [f32; 3] = [1024.0, 8192.0, 32_768.0];
@@ -50,16 +50,16 @@ fn check(gpu: &Gpu, stage: &StageRun) -> Outcome {
         frame.run_mirrors("place_casters", "extrude_edges");
         let outputs = run(gpu, stage, &frame, frame.extrude_args[0].x * frame.extrude_args[0].y);
         frame.run_mirror("extrude_edges");
-        let count = outputs.get::<Counters>("counters")[0].quads;
+        let count = counts_of(&outputs).quads;
         for (side, quads, count) in
-            [("device", &outputs.get("quads"), count), ("twin", &frame.quads, frame.counters.quads)]
+            [("device", &outputs.get("quads"), count), ("twin", &frame.quads, frame.counts().quads)]
         {
             let quads: &[Quad] = &quads[..count as usize];
             let cut = quads.iter().filter(|quad| quad.own_ends != OWN_END_LOW | OWN_END_HIGH).count();
             if cut < TRIANGLES as usize / 2 {
                 return Err(format!("{side}: only {cut} edges of size {size} are cut off in a cone of {cone}"));
             }
-            if let Some(quad) = quads.iter().find(|quad| !is_in_view(&frame.view, quad)) {
+            if let Some(quad) = quads.iter().find(|quad| !is_in_view(frame.view(), quad)) {
                 return Err(format!("{side}: an edge of size {size} in a cone of {cone} ends out of view: {quad:?}"));
             }
         }

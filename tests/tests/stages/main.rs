@@ -1,6 +1,7 @@
 //! Each compute stage against its CPU twin, buffer by buffer, fed with inputs made on the CPU.
 
 mod build_corners;
+mod bundles;
 mod classify_faces;
 mod deform_positions;
 mod detect_silhouette;
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
         refine_faces::trials(),
         resolve_faces::trials(),
         detect_silhouette::trials(),
+        bundles::trials(),
         write_extrude_args::trials(),
         extrude_edges::trials(),
         huge_edges::trials(),

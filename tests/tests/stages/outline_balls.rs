@@ -52,7 +52,7 @@ fn transformed(light: &CasterLight, [x, y, z]: [Ball; 3], w: f32) -> Clip {
 
 /// Clip space of one vertex, and of the way from it to another one.
 pub fn clip_and_delta(frame: &Frame, caster: u32, vertex: u32, other: u32) -> (Clip, Clip) {
-    let light = &frame.caster_lights[caster as usize];
+    let light = &frame.caster_lights[frame.begin(frame.bundle.shape.caster_stride) + caster as usize];
     let caster = &frame.casters[caster as usize];
     let from = scaled(caster, &frame.positions, vertex);
     let to = scaled(caster, &frame.positions, other);
@@ -62,7 +62,7 @@ pub fn clip_and_delta(frame: &Frame, caster: u32, vertex: u32, other: u32) -> (C
 
 /// Direction in which the image of a point moves towards another one, as `image_plane.wgsl` finds it.
 pub fn image(frame: &Frame, caster: u32, vertex: u32, other: u32) -> Image {
-    let light = &frame.caster_lights[caster as usize];
+    let light = &frame.caster_lights[frame.begin(frame.bundle.shape.caster_stride) + caster as usize];
     let caster = &frame.casters[caster as usize];
     let [from, to] = [vertex, other].map(|vertex| scaled(caster, &frame.positions, vertex));
     let edge = [0, 1, 2].map(|axis| to[axis] - from[axis]);

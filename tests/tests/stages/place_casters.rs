@@ -1,6 +1,6 @@
 //! The light and its clip space in each caster's space, bit by bit, and who is left out.
 
-use contrejour_layout::{CASTER_IN_VIEW, CasterLight, Counters, VIEW_CULLS};
+use contrejour_layout::{CASTER_IN_VIEW, CasterLight, SeatCounters, VIEW_CULLS, ViewBundle};
 use contrejour_plan::{
     CastersInFront, NearOne, ObjectBox, Projection, ShadowSettings, View, caster_light, caster_place, views,
 };
@@ -17,7 +17,7 @@ use contrejour_tests::stage_run::StageRun;
 use glam::{DMat4, DQuat, DVec3};
 use libtest_mimic::Trial;
 
-use crate::parity::{for_each_case, run, stage};
+use crate::parity::{for_each_case, run_for_seats, stage};
 
 pub fn trials() -> Vec<Trial> {
     vec![
@@ -37,12 +37,12 @@ const WRONG_DIGITS: [Fault; 2] = [
 
 /// Casters that are left out, or are not, at the wrong place.
 const WRONG_SIDES: [Fault; 5] = [
-    replaced("let side = 1.0 + view.reach_ndc;", "let side = 1.0;"),
+    replaced("let side = 1.0 + bundle.views[seat].reach_ndc;", "let side = 1.0;"),
     replaced("|| is_beyond(id, matrix, vec4f(-1.0, 0.0, 0.0, side))", ""),
     replaced("dot(normal, middle) + dot(abs(normal), half_size)", "dot(normal, middle)"),
     // Cascades have no front, and others have one.
-    replaced("let has_front = (view.flags & VIEW_PANCAKES) == 0u;", "let has_front = true;"),
-    replaced("let has_front = (view.flags & VIEW_PANCAKES) == 0u;", "let has_front = false;"),
+    replaced("let has_front = (bundle.views[seat].flags & VIEW_PANCAKES) == 0u;", "let has_front = true;"),
+    replaced("let has_front = (bundle.views[seat].flags & VIEW_PANCAKES) == 0u;", "let has_front = false;"),
 ];
 
 const fn replaced(piece: &'static str, fault: &'static str) -> Fault {
@@ -55,9 +55,13 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
     for_each_case("place_casters", |case| {
         for culls in [0, VIEW_CULLS] {
             let mut frame = case.frame.clone();
-            frame.view.flags = frame.view.flags & !VIEW_CULLS | culls;
+            // Every other view of a bundle culls.
+            for view in frame.bundle.views.iter_mut().step_by(2) {
+                view.flags = view.flags & !VIEW_CULLS | culls;
+            }
             compare(gpu, &stage, &mut frame)?;
-            left_out += frame.view.caster_count - frame.counters.casters;
+            let views = frame.bundle.views.iter().zip(&frame.counters);
+            left_out += views.map(|(view, counters)| view.caster_count - counters.counts.casters).sum::<u32>();
         }
         Ok(())
     })?;
@@ -66,10 +70,10 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
 
 /// Runs both on a frame, and leaves what the twin says.
 fn compare(gpu: &Gpu, stage: &StageRun, frame: &mut Frame) -> Outcome {
-    let outputs = run(gpu, stage, frame, frame.view.caster_count.div_ceil(64));
+    let outputs = run_for_seats(gpu, stage, frame, frame.view().caster_count.div_ceil(64));
     frame.run_mirror("place_casters");
     compare_exact("caster_lights", &frame.caster_lights, &outputs.get::<CasterLight>("caster_lights"))?;
-    compare_exact("counters", &[frame.counters], &outputs.get::<Counters>("counters"))
+    compare_exact("counters", &frame.counters, &outputs.get::<SeatCounters>("counters"))
 }
 
 /// A frame of casters without meshes.
@@ -80,8 +84,8 @@ fn frame_of(view: &View, places: impl Iterator<Item = (DMat4, NearOne)>) -> (Fra
         frame.caster_places.push(caster_place(&world_from_object, &near_one, None));
         expected.push(without_signs_of_zeros(caster_light(view, &world_from_object, &near_one)));
     }
-    frame.view = view.light_view(&ShadowSettings::default(), &Default::default());
-    frame.view.caster_count = expected.len() as u32;
+    frame.bundle = ViewBundle::of_one(&view.light_view(&ShadowSettings::default(), &Default::default()));
+    frame.bundle.views[0].caster_count = expected.len() as u32;
     frame.caster_lights = vec![CasterLight::default(); expected.len()];
     (frame, expected)
 }
@@ -122,7 +126,7 @@ fn check_rounding(gpu: &Gpu, stage: &StageRun, view: &View, places: &[(DMat4, Ne
     let (mut frame, expected) = frame_of(view, places.iter().copied());
     compare(gpu, stage, &mut frame)?;
     compare_exact("caster_lights", &expected, &frame.caster_lights)?;
-    Ok(frame.counters.casters)
+    Ok(frame.counts().casters)
 }
 
 fn place(random: &mut Random, index: usize) -> (DMat4, NearOne) {
@@ -155,7 +159,7 @@ fn culls(gpu: &Gpu, stage: &StageRun) -> Outcome {
                 let bounded = Some([bounds.min, bounds.max]);
                 *place = caster_place(&bounds.world_from_object, &NearOne::IDENTITY, bounded);
             }
-            let outputs = run(gpu, stage, &frame, frame.view.caster_count.div_ceil(64));
+            let outputs = run_for_seats(gpu, stage, &frame, frame.view().caster_count.div_ceil(64));
             let found = outputs.get::<CasterLight>("caster_lights");
             let reach_ndc = view.reach_ndc(&settings);
             for ((light, bounds), place) in found.iter().zip(&boxes).zip(&frame.caster_places) {

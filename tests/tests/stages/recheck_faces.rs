@@ -7,7 +7,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use contrejour_layout::{Counters, FaceRef};
+use contrejour_layout::{FaceTest, SeatCounters};
+use contrejour_tests::compare::compare_exact;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
@@ -28,6 +29,7 @@ enum Tier {
     Far,
 }
 
+/// A caster, and a face of it for one view.
 type Face = (u32, u32);
 
 fn decides_right_or_lists(gpu: &Gpu) -> Outcome {
@@ -40,29 +42,44 @@ fn decides_right_or_lists(gpu: &Gpu) -> Outcome {
         let mut after = before.clone();
         after.lit = outputs.get("lit");
         after.undecided = outputs.get("undecided");
-        after.counters = outputs.get("counters")[0];
+        after.counters = outputs.get("counters");
 
         let mut twin = before.clone();
         twin.run_mirror("recheck_faces");
         let (listed, listed_by_twin) = (listed(&after)?, listed(&twin)?);
-        listed_near += after.counters.undecided_near;
-        listed_far += after.counters.undecided_far;
+        listed_near += after.counters[0].undecided_near;
+        listed_far += after.counters[0].undecided_far;
+        check_seats(&after, &listed)?;
         check_tiers(&listed, &listed_by_twin)?;
-        check_bits(before, "recheck_faces", &after, |caster, face_id| listed.contains_key(&(caster, face_id)))
+        check_bits(before, "recheck_faces", &after, |caster, test| listed.contains_key(&(caster, test)))
     })?;
     if listed_near > 0 && listed_far > 0 { Ok(()) } else { Err("no case has undecided faces in both tiers".into()) }
 }
 
+/// Each view counts the faces that are listed for it.
+fn check_seats(frame: &Frame, listed: &BTreeMap<Face, Tier>) -> Outcome {
+    for (counters, seat) in frame.counters.iter().zip(0..) {
+        let of_seat = |tier| {
+            let tests =
+                listed.iter().filter(|((_, test), of)| **of == tier && test % frame.bundle.shape.seat_count == seat);
+            tests.count() as u32
+        };
+        let found = [counters.counts.undecided_near, counters.counts.undecided_far];
+        compare_exact(&format!("undecided faces of {seat}"), &[of_seat(Tier::Near), of_seat(Tier::Far)], &found)?;
+    }
+    Ok(())
+}
+
 /// The faces of both lists; the counters must not count past them.
 fn listed(frame: &Frame) -> Result<BTreeMap<Face, Tier>, String> {
-    let Counters { undecided_near, undecided_far, .. } = frame.counters;
+    let SeatCounters { undecided_near, undecided_far, .. } = frame.counters[0];
     let (near, far) = (undecided_near as usize, undecided_far as usize);
     if near + far > frame.undecided.len() {
         return Err(format!("{near} near and {far} far faces in a list of {}", frame.undecided.len()));
     }
     let tiers = frame.undecided[..near].iter().map(|face| (face, Tier::Near));
     let tiers = tiers.chain(frame.undecided[frame.undecided.len() - far..].iter().map(|face| (face, Tier::Far)));
-    let listed: BTreeMap<_, _> = tiers.map(|(&FaceRef { caster, face_id }, tier)| ((caster, face_id), tier)).collect();
+    let listed: BTreeMap<_, _> = tiers.map(|(&FaceTest { caster, test }, tier)| ((caster, test), tier)).collect();
     if listed.len() == near + far { Ok(listed) } else { Err("a face is listed twice".into()) }
 }
 

@@ -19,7 +19,7 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
         let args = twin.refine_args[1];
         let outputs = run(gpu, &stage, &twin, args.x * args.y);
         twin.run_mirror("resolve_faces");
-        decided += twin.counters.undecided_far;
+        decided += twin.counters[0].undecided_far;
         compare_exact("lit", &twin.lit, &outputs.get::<u32>("lit"))
     })?;
     if decided > 0 { Ok(()) } else { Err("no case has a face for this stage".into()) }

@@ -1,6 +1,6 @@
 //! Quads and corners to draws.
 
-use contrejour_layout::{Counters, DrawArgs, LightView};
+use contrejour_layout::{Counters, DrawArgs, LightView, SeatCounters};
 use contrejour_tests::compare::compare_exact;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
@@ -17,7 +17,7 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "write_draw_args");
     for count in COUNTS {
         for capacity in COUNTS {
-            let mut frame = Frame { view: view(capacity), counters: counters(count), ..Frame::empty() };
+            let mut frame = Frame::of_counts(view(capacity), counters(count));
             let outputs = run(gpu, &stage, &frame, 1);
             frame.run_mirror("write_draw_args");
             let what = format!("draw_args of {count} in {capacity}");
@@ -34,6 +34,7 @@ fn view(capacity: u32) -> LightView {
     LightView { quad_capacity: capacity, corner_capacity: capacity / 2, ..Default::default() }
 }
 
-fn counters(count: u32) -> Counters {
-    Counters { quads: count, corners: count / 3, ..Default::default() }
+fn counters(count: u32) -> SeatCounters {
+    let counts = Counters { quads: count, corners: count / 3, ..Default::default() };
+    SeatCounters { counts, ..Default::default() }
 }

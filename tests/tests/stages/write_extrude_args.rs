@@ -1,6 +1,6 @@
 //! Silhouette edges to dispatches.
 
-use contrejour_layout::{Counters, DispatchArgs, LightView};
+use contrejour_layout::{Counters, DispatchArgs, LightView, SeatCounters};
 use contrejour_tests::compare::compare_exact;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
@@ -17,7 +17,7 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
     let stage = stage(gpu, "write_extrude_args");
     for count in COUNTS {
         for capacity in COUNTS {
-            let mut frame = Frame { view: view(capacity), counters: counters(count), ..Frame::empty() };
+            let mut frame = Frame::of_counts(view(capacity), counters(count));
             let outputs = run(gpu, &stage, &frame, 1);
             frame.run_mirror("write_extrude_args");
             let what = format!("extrude_args of {count} in {capacity}");
@@ -34,6 +34,7 @@ fn view(silhouette_capacity: u32) -> LightView {
     LightView { silhouette_capacity, ..Default::default() }
 }
 
-fn counters(count: u32) -> Counters {
-    Counters { silhouette_edges: count, ..Default::default() }
+fn counters(count: u32) -> SeatCounters {
+    let counts = Counters { silhouette_edges: count, ..Default::default() };
+    SeatCounters { counts, ..Default::default() }
 }

@@ -1,6 +1,6 @@
 //! Numbers of listed blocks to dispatches and draws.
 
-use contrejour_layout::{Counters, DispatchArgs, DrawArgs, LightView};
+use contrejour_layout::{Counters, DispatchArgs, DrawArgs, LightView, SeatCounters};
 use contrejour_tests::compare::compare_exact;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
@@ -21,9 +21,9 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
     for items in COUNTS {
         for blocks in COUNTS {
             let view = LightView { face_block_count: blocks, edge_block_count: blocks / 2, ..Default::default() };
-            let counters =
-                Counters { face_items: items, edge_items: items / 3, masked_items: items / 2, ..Default::default() };
-            let mut frame = Frame { view, counters, ..Frame::empty() };
+            let counts = Counters { face_items: items, masked_items: items / 2, ..Default::default() };
+            let counters = SeatCounters { counts, face_tests: items, edge_tests: items / 3, ..Default::default() };
+            let mut frame = Frame::of_counts(view, counters);
             let outputs = run(gpu, &stage, &frame, 1);
             frame.run_mirror("write_item_args");
             let what = format!("of {items} listed in {blocks}");

@@ -1,6 +1,6 @@
 //! Words with faces to recheck to a dispatch.
 
-use contrejour_layout::{Counters, DispatchArgs, LightView};
+use contrejour_layout::{DispatchArgs, LightView, SeatCounters};
 use contrejour_tests::compare::compare_exact;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
@@ -21,8 +21,8 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
     for recheck_words in COUNTS {
         for face_block_count in COUNTS {
             let view = LightView { face_block_count, ..Default::default() };
-            let counters = Counters { recheck_words, ..Default::default() };
-            let mut frame = Frame { view, counters, ..Frame::empty() };
+            let counters = SeatCounters { recheck_words, ..Default::default() };
+            let mut frame = Frame::of_counts(view, counters);
             let outputs = run(gpu, &stage, &frame, 1);
             frame.run_mirror("write_recheck_args");
             let what = format!("recheck_args of {recheck_words} words in {face_block_count} blocks");

@@ -43,7 +43,7 @@ pub struct SceneComputeStage {
 /// Where the number of workgroups of a stage comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dispatch {
-    /// One invocation for each caster, once for all pages.
+    /// One invocation for each caster and each view, once for all pages.
     Casters,
     /// One invocation for each block of faces and for each block of edges, in workgroups of their own.
     Blocks,

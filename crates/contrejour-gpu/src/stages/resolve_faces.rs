@@ -10,8 +10,10 @@ pub(super) const RESOLVE_FACES: ComputeStage = ComputeStage {
         "compute/resolve_faces",
         "topology",
         "light",
+        "bundle",
         "outline",
         "args",
+        "seat_counters",
         "invocation",
         "facing",
         "wide_integer"

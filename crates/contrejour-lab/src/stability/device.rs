@@ -1,12 +1,13 @@
 //! A case on the device, and everything that its frame leaves there.
 
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
 use bytemuck::{AnyBitPattern, NoUninit, cast_slice, pod_collect_to_vec};
 use contrejour_gpu::{CasterInput, LightHandle, Positions, ShadowOptions, Shadows, Untimed};
-use contrejour_layout::{CasterLight, Corner, Counters, LightView, Quad, ReceiverView, SilhouetteEdge};
+use contrejour_layout::{CasterLight, Corner, Counters, LightView, Quad, ReceiverView, SilhouetteEdge, lit_of_seat};
 use contrejour_mesh::{BuildOptions, TopologyAwareMesh, TopologyError};
 use contrejour_plan::{BufferKind, FramePlan, Light, ShadowSettings};
 use contrejour_render::{Gpu, copied_buffer, read_buffer, read_rows};
@@ -72,8 +73,13 @@ const READ: [BufferKind; 9] = [
     BufferKind::Silhouettes,
 ];
 
-/// Buffers of a frame's view, by their kinds.
-type Buffers = HashMap<BufferKind, Vec<wgpu::Buffer>>;
+/// What a view has of a frame's buffers.
+struct Buffers {
+    /// Parts of them, by their kinds.
+    parts: HashMap<BufferKind, Vec<(wgpu::Buffer, Range<u64>)>>,
+    /// Whose the lit bits are: seats of the bundle, and the view's own.
+    seat: (usize, usize),
+}
 
 impl<'a> DeviceFrame<'a> {
     pub fn new(gpu: &'a Gpu, meshes: &[DeviceMesh], light: &Light, settings: &ShadowSettings) -> Result<Self, Refusal> {
@@ -139,11 +145,14 @@ impl<'a> DeviceFrame<'a> {
     /// What each of the light's views left.
     pub fn read(&mut self, view_count: usize) -> Result<Vec<DeviceOutputs>, Ended> {
         // One view's in place: some lists are as large as memory allows.
-        let mut buffers = if view_count > 1 { self.copies()? } else { vec![Buffers::new()] };
+        let mut buffers =
+            if view_count > 1 { self.copies()? } else { vec![Buffers { parts: HashMap::new(), seat: (1, 0) }] };
         for kind in READ {
             // The light's own hold the records of all its views.
             if view_count == 1 || kind.is_of_light() {
-                buffers[0].insert(kind, self.shadows.buffers(kind).cloned().collect());
+                let part =
+                    |part: wgpu::BufferSlice<'_>| (part.buffer().clone(), part.offset()..part.offset() + part.size());
+                buffers[0].parts.insert(kind, self.shadows.buffers(kind).map(part).collect());
             }
         }
         Ok(buffers.iter().map(|buffers| self.outputs(buffers)).collect::<Result<_, _>>()?)
@@ -157,8 +166,9 @@ impl<'a> DeviceFrame<'a> {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut views = Vec::new();
         self.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
-            let mut copy = |buffer| copied_buffer(self.gpu, encoder, buffer);
-            views.push(READ.into_iter().map(|kind| (kind, view.buffers(kind).map(&mut copy).collect())).collect());
+            let mut copy = |part: wgpu::BufferSlice<'_>| (copied_buffer(self.gpu, encoder, part), 0..part.size());
+            let parts = READ.into_iter().map(|kind| (kind, view.buffers(kind).map(&mut copy).collect())).collect();
+            views.push(Buffers { parts, seat: (view.seat_count, view.seat) });
         });
         queue.submit([encoder.finish()]);
         self.gpu.wait(None).map_err(CaseError::from)?;
@@ -173,7 +183,8 @@ impl<'a> DeviceFrame<'a> {
         let light_view: Vec<LightView> = self.records(buffers, BufferKind::LightView)?;
         let planes: Vec<[f32; 4]> = self.records(buffers, BufferKind::Planes)?;
         let receiver_view: Vec<ReceiverView> = self.records(buffers, BufferKind::ReceiverView)?;
-        let lit: Vec<u32> = self.records(buffers, BufferKind::Lit)?;
+        let (seat_count, seat) = buffers.seat;
+        let lit = lit_of_seat(&self.records::<u32>(buffers, BufferKind::Lit)?, seat_count as u32, seat as u32);
         Ok(DeviceOutputs {
             casting: (0..caster_lights.len()).filter(|caster| caster_lights[*caster].casts == 1).collect(),
             lit: (!lit.is_empty()).then_some(lit),
@@ -192,8 +203,9 @@ impl<'a> DeviceFrame<'a> {
     /// All records of a kind of buffers; none where the frame has no such buffer.
     fn records<T: AnyBitPattern + NoUninit>(&self, buffers: &Buffers, kind: BufferKind) -> Result<Vec<T>, CaseError> {
         let mut records = Vec::new();
-        for buffer in buffers.get(&kind).into_iter().flatten() {
-            records.extend(pod_collect_to_vec::<u8, T>(&read_buffer(self.gpu, buffer, buffer.size())?));
+        for (buffer, range) in buffers.parts.get(&kind).into_iter().flatten() {
+            let part = buffer.slice(range.clone());
+            records.extend(pod_collect_to_vec::<u8, T>(&read_buffer(self.gpu, part, part.size())?));
         }
         Ok(records)
     }
@@ -206,10 +218,10 @@ impl<'a> DeviceFrame<'a> {
         count: fn(&Counters) -> u32,
     ) -> Result<Vec<T>, CaseError> {
         let mut records = Vec::new();
-        let lists = buffers.get(&kind).into_iter().flatten();
-        for (counters, list) in self.records(buffers, BufferKind::Counters)?.iter().zip(lists) {
+        let lists = buffers.parts.get(&kind).into_iter().flatten();
+        for (counters, (buffer, range)) in self.records(buffers, BufferKind::Counters)?.iter().zip(lists) {
             let size = u64::from(count(counters)) * size_of::<T>() as u64;
-            records.extend(pod_collect_to_vec::<u8, T>(&read_buffer(self.gpu, list, size)?));
+            records.extend(pod_collect_to_vec::<u8, T>(&read_buffer(self.gpu, buffer.slice(range.clone()), size)?));
         }
         Ok(records)
     }

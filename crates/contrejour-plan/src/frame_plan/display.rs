@@ -20,6 +20,9 @@ impl fmt::Display for FramePlan {
         if self.pages.len() > 1 {
             writeln!(formatter, "pages: {}", self.pages.len())?;
         }
+        if self.seats > 1 {
+            writeln!(formatter, "tested together: up to {} views", self.seats)?;
+        }
 
         let (stages, passes) = if self.is_drawn() { (&self.stages[..], &self.passes[..]) } else { (&[][..], &[][..]) };
         write_names(formatter, "stages", stages.iter().map(|stage| stage.name()))?;
@@ -33,7 +36,11 @@ impl fmt::Display for FramePlan {
                 } else {
                     buffer.kind.name().to_owned()
                 },
-                format!("{} x {} B", buffer.items, buffer.kind.item_bytes()),
+                if buffer.seats > 1 {
+                    format!("{} x {} x {} B", buffer.seats, buffer.items, buffer.kind.item_bytes())
+                } else {
+                    format!("{} x {} B", buffer.items, buffer.kind.item_bytes())
+                },
                 human(buffer.bytes),
             ]
         });

@@ -44,6 +44,8 @@ pub enum Omitted {
     Deformation,
     /// The planes of faces.
     FacePlanes,
+    /// Tests of all views of the scene together, up to eight at once.
+    TestsTogether,
     /// The search for blockers.
     BlockerSearch,
     /// 32-bit moments and stronger warps.
@@ -106,6 +108,8 @@ pub enum Reason {
     NothingIsSkinned,
     /// All casters bring their own positions.
     PositionsAreTheCallers,
+    /// The lists of so many views would take more than 64 MiB, or one of them more than the device allows.
+    ListsAreTooLarge,
     /// Neither the light nor anything within its reach changed: its maps stand.
     NothingChanged,
 }
@@ -125,6 +129,7 @@ impl fmt::Display for Omitted {
             Self::InstanceTransforms => "instance transforms",
             Self::Deformation => "deformation",
             Self::FacePlanes => "planes of faces",
+            Self::TestsTogether => "tests of more views at once",
             Self::BlockerSearch => "search for blockers",
             Self::FullMoments => "32-bit moments",
             Self::Redrawing => "all stages and passes",
@@ -162,6 +167,9 @@ impl fmt::Display for Reason {
             Self::NothingIsInstanced => "each caster has one matrix",
             Self::NothingIsSkinned => "positions come as they are drawn",
             Self::NothingChanged => "neither the light nor anything within its reach changed: its maps stand",
+            Self::ListsAreTooLarge => {
+                "their lists would take more than 64 MiB together, or one of them more than the device allows"
+            }
             Self::PositionsAreTheCallers => "all positions are the caller's: faces are tested by them",
         })
     }

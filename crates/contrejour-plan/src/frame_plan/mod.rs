@@ -13,13 +13,14 @@ mod pipeline;
 mod plan;
 mod room;
 mod scene_stage;
+mod seats;
 mod shared_plans;
 mod size_buffers;
 mod stage;
 mod texture;
 mod visibility;
 
-pub use buffer::{BufferKind, BufferPlan};
+pub use buffer::{BufferKind, BufferPlan, Seating};
 pub use capacity::Capacity;
 pub use error::PlanError;
 pub use facts::{CasterFacts, DeviceFacts, MaskFacts, MeshFacts, MeshPiece, Outputs, PoolHoles, SceneFacts};

@@ -32,8 +32,15 @@ pub enum EntryPoints {
 }
 
 impl PipelinePlan {
-    pub(super) fn of_stage(stage: Stage) -> Self {
-        Self { entry_points: EntryPoints::Compute(stage), constants: Vec::new() }
+    /// One for bundles of one view first, and one for larger ones behind it, where a stage tells them apart and there may be
+    /// some.
+    pub(super) fn of_stage(stage: Stage, seats: u32) -> Vec<Self> {
+        let entry_points = EntryPoints::Compute(stage);
+        if stage != Stage::ClassifyFaces {
+            return vec![Self { entry_points, constants: Vec::new() }];
+        }
+        let one_seat: &[f64] = if seats > 1 { &[1.0, 0.0] } else { &[1.0] };
+        one_seat.iter().map(|one| Self { entry_points, constants: vec![("one_seat", *one)] }).collect()
     }
 
     /// One for each draw of the pass.

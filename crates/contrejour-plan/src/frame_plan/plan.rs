@@ -3,6 +3,7 @@
 use super::decide::{LeftOutList, casting, lacks_planes, note_masked, passes, smoothies_wanted, stages};
 use super::page::{Page, pages};
 use super::room::with_room;
+use super::seats::{seats, wanted_seats};
 use super::size_buffers::{PageSizes, SceneSizes};
 use super::{
     BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, Omitted, Outputs, PagePlan, Pass, PipelinePlan, PlanError,
@@ -18,6 +19,8 @@ pub struct PlanInput<'a> {
     /// The light's views, at least one. How many they are and whether the light has a size decides what is made; where they
     /// look decides who casts.
     pub views: &'a [View],
+    /// Views of all lights of the scene together, this one's among them: those that may be tested together.
+    pub all_views: usize,
     /// How its shadow is made.
     pub settings: &'a ShadowSettings,
     /// What the device can do.
@@ -54,6 +57,8 @@ pub struct FramePlan {
     pub pipelines: Vec<PipelinePlan>,
     /// Pages, at least one; more where the device's buffers are too small for all meshes together.
     pub pages: Vec<PagePlan>,
+    /// Views that are tested together, at most: 1, 2, 4 or 8. As many as the scene has, as far as their lists have room.
+    pub seats: u32,
     /// Buffers by kind, then by page. All lights share them, but for those [of the light](BufferKind::is_of_light).
     pub buffers: Vec<BufferPlan>,
     /// Textures.
@@ -102,7 +107,12 @@ impl FramePlan {
         left_out.add(Omitted::Deformation, Reason::NothingIsSkinned);
 
         // List what that needs.
-        let is_needed = |kind: &BufferKind| is_bound(*kind, &stages, &passes) || input.shared.contains(kind);
+        // Where others have seats, a view that does nothing has one too.
+        let is_shared = |kind: &BufferKind| match kind {
+            BufferKind::LightView => input.shared.contains(&BufferKind::ViewBundle),
+            kind => input.shared.contains(kind),
+        };
+        let is_needed = |kind: &BufferKind| is_bound(*kind, &stages, &passes) || is_shared(kind);
         let kinds: Vec<_> = BufferKind::ALL.into_iter().filter(is_needed).collect();
         let pages = pages(scene, &kinds, device, PageSizes::new(scene, &kinds, input.capacity, lacks_planes));
         let mut buffers = buffers(&kinds, &SceneSizes::new(scene, input.views.len()), &pages, device)?;
@@ -113,11 +123,18 @@ impl FramePlan {
                 *buffer = with_room(*buffer, expected, input.made, device);
             }
         }
+        let seats = seats(input, &buffers);
+        if stages.contains(&Stage::ClassifyFaces) && seats < wanted_seats(input) {
+            left_out.add(Omitted::TestsTogether, Reason::ListsAreTooLarge);
+        }
+        for buffer in &mut buffers {
+            *buffer = buffer.with_seats(seats);
+        }
         let kept = |kind: &TextureKind| visibility.is_some_and(|visibility| visibility.textures().contains(kind));
         let layers = |kind: &TextureKind| if kept(kind) { input.views.len() as u32 } else { 1 };
         let textures = passes.iter().flat_map(|pass| pass.fills());
         let textures = textures.map(|kind| TexturePlan::new(*kind, settings, device, layers(kind))).collect();
-        let of_stages = stages.iter().map(|stage| PipelinePlan::of_stage(*stage));
+        let of_stages = stages.iter().flat_map(|stage| PipelinePlan::of_stage(*stage, seats));
         let in_front = casters_in_front(input.views);
         let of_passes = passes.iter().flat_map(|pass| PipelinePlan::of_pass(*pass, &settings.technique, in_front));
         let pipelines = of_stages.chain(of_passes).collect();
@@ -139,6 +156,7 @@ impl FramePlan {
             passes,
             pipelines,
             pages,
+            seats,
             buffers,
             textures,
             casting,
@@ -193,12 +211,20 @@ fn casters_in_front(views: &[View]) -> CastersInFront {
     views.first().map_or(CastersInFront::Clipped, |view| view.casters_in_front)
 }
 
-/// Whether a stage or a pass binds a buffer. Receivers look the maps up through the receiver view.
+/// Whether a stage or a pass needs a buffer. Receivers look the maps up through the receiver view.
 fn is_bound(kind: BufferKind, stages: &[Stage], passes: &[Pass]) -> bool {
-    let by_receivers = kind == BufferKind::ReceiverView && !passes.is_empty();
-    by_receivers
-        || stages.iter().any(|stage| stage.buffers().contains(&kind))
-        || passes.iter().any(|pass| pass.buffers().contains(&kind))
+    let binds = |kind| {
+        stages.iter().any(|stage| stage.buffers().contains(&kind))
+            || passes.iter().any(|pass| pass.buffers().contains(&kind))
+    };
+    match kind {
+        BufferKind::ReceiverView => !passes.is_empty(),
+        // What a seat holds is copied from the light that has it.
+        BufferKind::LightView | BufferKind::BundleShapes | BufferKind::ViewBundle => {
+            binds(BufferKind::LightView) || binds(BufferKind::ViewBundle)
+        }
+        kind => binds(kind),
+    }
 }
 
 fn buffers(

@@ -13,6 +13,9 @@ const INDIRECT_DISPATCHES: u64 = 2;
 /// Faces, quads, corners and masked faces.
 const INDIRECT_DRAWS: u64 = 4;
 
+/// A bundle has 1, 2, 4 or 8 seats.
+const BUNDLE_SHAPES: u64 = 4;
+
 /// Sizes of the buffers that serve all pages, with room for all casters of a scene, whether the light sees them or not:
 /// it may in the next frame, and nothing is to be created then.
 pub(super) struct SceneSizes {
@@ -46,6 +49,8 @@ pub(super) struct PageSizes {
     lacks_planes: bool,
     /// No stage looks at edges.
     lacks_edges: bool,
+    /// No stage tests faces.
+    lacks_tests: bool,
     outline_edges: u64,
     /// Room for quads and corners that earlier frames are known to need.
     floor: Capacity,
@@ -95,7 +100,8 @@ impl PageSizes {
     /// Sizes of a page without pieces.
     pub fn new(scene: &SceneFacts, kinds: &[BufferKind], floor: Capacity, lacks_planes: bool) -> Self {
         let lacks_edges = !kinds.contains(&BufferKind::Edges);
-        Self { casters: scene.caster_slots() as u64, lacks_planes, lacks_edges, floor, ..Self::default() }
+        let lacks_tests = !kinds.contains(&BufferKind::Lit);
+        Self { casters: scene.caster_slots() as u64, lacks_planes, lacks_edges, lacks_tests, floor, ..Self::default() }
     }
 
     /// Makes room for what is free between pieces and between blocks.
@@ -149,9 +155,11 @@ impl PageSizes {
             BufferKind::Casters => self.casters,
             // Masked ones lie at the back of as long a list.
             BufferKind::FaceBlocks | BufferKind::FaceItems => self.face_blocks + self.free_face_blocks,
-            BufferKind::EdgeBlocks | BufferKind::EdgeItems if self.lacks_edges => 0,
+            BufferKind::FaceTests if self.lacks_tests => 0,
+            BufferKind::FaceTests => self.face_blocks,
+            BufferKind::EdgeBlocks | BufferKind::EdgeTests if self.lacks_edges => 0,
             BufferKind::EdgeBlocks => self.edge_blocks + self.free_edge_blocks,
-            BufferKind::EdgeItems => self.edge_blocks,
+            BufferKind::EdgeTests => self.edge_blocks,
             BufferKind::RecheckWords => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
             BufferKind::Undecided => self.faces,
             BufferKind::Silhouettes => self.edges,
@@ -159,6 +167,7 @@ impl PageSizes {
             BufferKind::Corners => capacity.corners.into(),
             BufferKind::ItemArgs | BufferKind::RefineArgs | BufferKind::ExtrudeArgs => INDIRECT_DISPATCHES,
             BufferKind::DrawArgs => INDIRECT_DRAWS,
+            BufferKind::BundleShapes => BUNDLE_SHAPES,
             _ => 1,
         }
     }
@@ -185,9 +194,9 @@ pub(super) fn most_items(kind: BufferKind, device: &DeviceFacts) -> u64 {
     (bytes / kind.item_bytes()).min(u32::MAX.into())
 }
 
-fn allowed(plan: BufferPlan, device: &DeviceFacts) -> Result<BufferPlan, PlanError> {
+pub(super) fn allowed(plan: BufferPlan, device: &DeviceFacts) -> Result<BufferPlan, PlanError> {
     let BufferPlan { kind, items, bytes, .. } = plan;
-    if items > u64::from(u32::MAX) {
+    if items.saturating_mul(plan.seats.into()) > u64::from(u32::MAX) {
         return Err(PlanError::TooManyRecords { buffer: kind, needed: items });
     }
     let limits = [

@@ -7,13 +7,13 @@ use super::BufferKind::{self, *};
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Stage {
-    /// From where casters stand to the light as each sees it; leaves out those that the view can't see.
+    /// From where casters stand to the lights as each sees them; leaves out those that a view can't see.
     PlaceCasters,
-    /// From the blocks of all casters to work items of those that cast for the view.
+    /// From the blocks of all casters to those of the ones that cast: to draw for each view, to test for all together.
     ListBlocks,
-    /// From work items to the dispatches and the draw that work on them.
+    /// From listed blocks to the dispatches and the draws that work on them.
     WriteItemArgs,
-    /// One lit bit for each face, by its stored plane where the bound allows; the others are listed by words.
+    /// One lit bit for each face and view, by its stored plane where the bound allows; the others are listed by words.
     ClassifyFaces,
     /// From words with faces to recheck to the dispatch over those faces.
     WriteRecheckArgs,
@@ -25,7 +25,7 @@ pub enum Stage {
     RefineFaces,
     /// Undecided faces by full integers.
     ResolveFaces,
-    /// From lit bits to the list of silhouette edges.
+    /// From lit bits to the lists of silhouette edges.
     DetectSilhouette,
     /// From silhouette edges to the dispatches that extrude them.
     WriteExtrudeArgs,
@@ -62,7 +62,8 @@ impl Stage {
     /// The stages that find the silhouette.
     pub const DETECTION: &[Self] = Self::UP_TO_SILHOUETTES.split_at(3).1;
 
-    /// The stages that end with the list of silhouette edges; the others extrude them.
+    /// The stages that end with the lists of silhouette edges: they run once for a bundle of views. The others extrude what
+    /// is in them, for one view after the other.
     pub const UP_TO_SILHOUETTES: &[Self] = Self::ALL.split_at(10).0;
 
     /// Its name: shader file, entry point, CPU twin and test.
@@ -88,20 +89,22 @@ impl Stage {
     /// The buffers that its shader binds, in the order of their bindings; the first is a uniform.
     pub const fn buffers(self) -> &'static [BufferKind] {
         match self {
-            Self::PlaceCasters => &[LightView, CasterPlaces, CasterLights, Counters],
-            Self::ListBlocks => &[LightView, CasterLights, FaceBlocks, EdgeBlocks, FaceItems, EdgeItems, Counters],
-            Self::WriteItemArgs => &[LightView, Counters, ItemArgs, DrawArgs],
-            Self::ClassifyFaces => &[LightView, FaceItems, Casters, CasterLights, Planes, Lit, RecheckWords, Counters],
-            Self::WriteRecheckArgs => &[LightView, Counters, RecheckArgs],
-            Self::RecheckFaces => {
-                &[LightView, RecheckWords, Casters, CasterLights, Faces, Positions, Lit, Undecided, Counters]
+            Self::PlaceCasters => &[ViewBundle, CasterPlaces, CasterLights, Counters],
+            Self::ListBlocks => {
+                &[ViewBundle, CasterLights, FaceBlocks, EdgeBlocks, FaceItems, FaceTests, EdgeTests, Counters]
             }
-            Self::WriteRefineArgs => &[LightView, Counters, RefineArgs],
+            Self::WriteItemArgs => &[ViewBundle, Counters, ItemArgs, DrawArgs],
+            Self::ClassifyFaces => &[ViewBundle, FaceTests, Casters, CasterLights, Planes, Lit, RecheckWords, Counters],
+            Self::WriteRecheckArgs => &[ViewBundle, Counters, RecheckArgs],
+            Self::RecheckFaces => {
+                &[ViewBundle, RecheckWords, Casters, CasterLights, Faces, Positions, Lit, Undecided, Counters]
+            }
+            Self::WriteRefineArgs => &[ViewBundle, Counters, RefineArgs],
             Self::RefineFaces | Self::ResolveFaces => {
-                &[LightView, Undecided, Counters, Casters, CasterLights, Faces, Positions, Lit]
+                &[ViewBundle, Undecided, Counters, Casters, CasterLights, Faces, Positions, Lit]
             }
             Self::DetectSilhouette => {
-                &[LightView, EdgeItems, Casters, Edges, Incidences, Lit, Silhouettes, OutlineSides, Counters]
+                &[ViewBundle, EdgeTests, Casters, Edges, Incidences, Lit, Silhouettes, OutlineSides, Counters]
             }
             Self::WriteExtrudeArgs => &[LightView, Counters, ExtrudeArgs],
             Self::ExtrudeEdges => &[LightView, Silhouettes, Casters, CasterLights, Edges, Positions, Quads, Counters],
@@ -124,7 +127,8 @@ mod tests {
     fn bindings_fit_the_default_limits() {
         for stage in Stage::ALL {
             let (uniform, storage) = stage.buffers().split_first().expect("never empty");
-            assert_eq!(*uniform, LightView);
+            let is_of_bundle = Stage::UP_TO_SILHOUETTES.contains(&stage);
+            assert_eq!(*uniform, if is_of_bundle { ViewBundle } else { LightView });
             assert!(storage.len() <= MAX_STORAGE_BUFFERS, "{}", stage.name());
             let mut distinct = storage.to_vec();
             distinct.sort();

@@ -1,6 +1,6 @@
 //! The uniforms of a view.
 
-use contrejour_layout::{LightView, ReceiverView, VIEW_CULLS, VIEW_PANCAKES};
+use contrejour_layout::{LightView, ReceiverView, VIEW_CULLS, VIEW_PANCAKES, VIEW_TESTS};
 
 use super::caster_place::words_of;
 use super::{CastersInFront, Projection, View};
@@ -73,7 +73,9 @@ impl View {
                 _ => 0.0,
             },
             caster_count: counts.casters,
-            flags: VIEW_CULLS | if self.casters_in_front == CastersInFront::Pancaked { VIEW_PANCAKES } else { 0 },
+            flags: VIEW_CULLS
+                | VIEW_TESTS
+                | if self.casters_in_front == CastersInFront::Pancaked { VIEW_PANCAKES } else { 0 },
             reach_ndc: self.reach_ndc(settings) as f32,
             light_world: rows_of(self.light_world.to_array()),
             light_clip_from_world: rows_of(self.light_clip_from_world.to_cols_array()),

@@ -190,20 +190,20 @@ pub fn draw_depth(device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, tor
     pass.draw(0..vertex_count, 0..1);
 }
 
-/// Waits for the device and brings a buffer's bytes back.
+/// Waits for the device and brings the bytes of a part of a buffer back.
 pub fn read_buffer(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-    buffer: &wgpu::Buffer,
+    part: wgpu::BufferSlice<'_>,
 ) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let staging = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back"),
-        size: buffer.size(),
+        size: part.size(),
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });
     let mut encoder = device.create_command_encoder(&Default::default());
-    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+    encoder.copy_buffer_to_buffer(part.buffer(), part.offset(), &staging, 0, part.size());
     encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., |_| {});
     queue.submit([encoder.finish()]);
     device.poll(wgpu::PollType::wait_indefinitely())?;
@@ -235,7 +235,7 @@ pub fn read_texture(
         texture.size(),
     );
     queue.submit([encoder.finish()]);
-    read_buffer(device, queue, &buffer)
+    read_buffer(device, queue, buffer.slice(..))
 }
 
 /// Writes a texture of the picture's size as a PNG into the temporary folder; returns its path.

@@ -178,7 +178,7 @@ impl<'a> Verifier<'a> {
             let Positions::InBuffer { buffer, offset, .. } = positions else { continue };
             let expected = self.world.flexible.deforming.posed(&pose);
             let size = size_of::<[f32; 3]>() as u64 * expected.len() as u64;
-            let bytes = read_buffer(gpu, &buffer, offset + size)?;
+            let bytes = read_buffer(gpu, buffer.slice(..), offset + size)?;
             let found: Vec<[f32; 3]> = bytemuck::pod_collect_to_vec(&bytes[offset as usize..]);
             let error = found
                 .iter()
@@ -236,5 +236,5 @@ fn read<T: bytemuck::AnyBitPattern + bytemuck::NoUninit>(
     buffer: &wgpu::Buffer,
     size: u64,
 ) -> Result<Vec<T>, StressError> {
-    Ok(bytemuck::pod_collect_to_vec(&read_buffer(gpu, buffer, size)?))
+    Ok(bytemuck::pod_collect_to_vec(&read_buffer(gpu, buffer.slice(..), size)?))
 }

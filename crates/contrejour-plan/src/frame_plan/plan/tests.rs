@@ -3,8 +3,8 @@ use glam::{DMat4, DVec3};
 use super::*;
 use crate::{
     AlphaRemap, CasterFacts, DepthPrecision, EntryPoints, Light, LightKind, MapSampler, MaskFacts, MeshFacts,
-    MeshPiece, ObjectBox, PagedCaster, PoolHoles, SettingsError, SmoothieBlend, SmoothieSettings, SmoothieWidth,
-    Technique, TextureFormat, VarianceSettings, views,
+    MeshPiece, ObjectBox, PagedCaster, PoolHoles, Seating, SettingsError, SmoothieBlend, SmoothieSettings,
+    SmoothieWidth, Technique, TextureFormat, VarianceSettings, views,
 };
 
 mod masked;
@@ -73,6 +73,7 @@ fn smoothies(change: impl FnOnce(&mut SmoothieSettings)) -> ShadowSettings {
 struct Case {
     scene: SceneFacts,
     views: Vec<View>,
+    all_views: usize,
     settings: ShadowSettings,
     device: DeviceFacts,
     outputs: Outputs,
@@ -86,6 +87,7 @@ impl Case {
         Self {
             scene,
             views: vec![spot(0.2)],
+            all_views: 0,
             settings: smoothies(|_| ()),
             device: DeviceFacts::default(),
             outputs: Outputs::Maps,
@@ -103,6 +105,7 @@ impl Case {
         FramePlan::new(&PlanInput {
             scene: &scene,
             views: &self.views,
+            all_views: self.all_views,
             settings: &self.settings,
             device: &self.device,
             outputs: self.outputs,
@@ -129,7 +132,9 @@ fn assert_consistent(plan: &FramePlan) {
     for kind in BufferKind::ALL {
         let bound = plan.stages.iter().any(|stage| stage.buffers().contains(&kind))
             || plan.passes.iter().any(|pass| pass.buffers().contains(&kind))
-            || kind == BufferKind::ReceiverView && plan.passes.iter().any(|pass| pass.fills_shadow_map());
+            || kind == BufferKind::ReceiverView && plan.passes.iter().any(|pass| pass.fills_shadow_map())
+            || [BufferKind::LightView, BufferKind::ViewBundle, BufferKind::BundleShapes].contains(&kind)
+                && (!plan.stages.is_empty() || plan.passes.iter().any(|pass| pass.fills_shadow_map()));
         assert_eq!(plan.buffer(kind).is_some(), bound, "{}", kind.name());
     }
     for texture in &plan.textures {
@@ -190,8 +195,11 @@ fn sizes_follow_the_counts() {
     assert_eq!(bytes(&plan, BufferKind::VertexEdges), Some((9 + 2 * 24) * 4));
     assert_eq!(bytes(&plan, BufferKind::Casters), Some(2 * 64));
     assert_eq!(bytes(&plan, BufferKind::CasterPlaces), Some(2 * 224));
-    for kind in [BufferKind::FaceBlocks, BufferKind::FaceItems, BufferKind::EdgeBlocks, BufferKind::EdgeItems] {
+    for kind in [BufferKind::FaceBlocks, BufferKind::FaceItems, BufferKind::EdgeBlocks] {
         assert_eq!(bytes(&plan, kind), Some(2 * 12));
+    }
+    for kind in [BufferKind::FaceTests, BufferKind::EdgeTests] {
+        assert_eq!(bytes(&plan, kind), Some(2 * 16));
     }
     assert_eq!(bytes(&plan, BufferKind::ItemArgs), Some(2 * 12));
     assert_eq!(bytes(&plan, BufferKind::Lit), Some(2 * 2 * 4));
@@ -428,9 +436,23 @@ fn the_remap_is_an_override_constant() {
     for (remap, value) in [(AlphaRemap::Contact, 1.0), (AlphaRemap::Off, 0.0)] {
         case.settings = smoothies(|smoothies| smoothies.remap = remap);
         let plan = case.good();
-        let with_constants: Vec<_> = plan.pipelines.iter().filter(|pipeline| !pipeline.constants.is_empty()).collect();
+        let is_raster = |pipeline: &&PipelinePlan| matches!(pipeline.entry_points, EntryPoints::Raster { .. });
+        let with_constants = plan.pipelines.iter().filter(is_raster).filter(|pipeline| !pipeline.constants.is_empty());
+        let with_constants: Vec<_> = with_constants.collect();
         assert_eq!(with_constants.len(), 4);
         assert!(with_constants.iter().all(|pipeline| pipeline.constants == [("remap_alpha", value)]));
+    }
+}
+
+#[test]
+fn bundles_of_one_view_have_a_pipeline_that_does_nothing_for_others() {
+    let mut case = Case::new(cube_scene());
+    for (views, expected) in [(1, vec![("one_seat", 1.0)]), (8, vec![("one_seat", 1.0), ("one_seat", 0.0)])] {
+        case.all_views = views;
+        let is_it = |pipeline: &&PipelinePlan| pipeline.entry_points == EntryPoints::Compute(Stage::ClassifyFaces);
+        let pipelines = case.good().pipelines;
+        let constants = pipelines.iter().filter(is_it).flat_map(|pipeline| pipeline.constants.clone());
+        assert_eq!(constants.collect::<Vec<_>>(), expected);
     }
 }
 
@@ -550,7 +572,7 @@ fn the_print_shows_all_of_it() {
     for line in [
         "technique: smoothies, 1024 texels",
         "  shadow_depth           1024 x 1024 r32float      4.0 MiB",
-        "  quads          12 x 64 B  768 B",
+        "  quads          12 x 64 B   768 B",
         "  topology of floor         it only receives",
     ] {
         assert!(print.lines().any(|printed| printed == line), "no line \"{line}\" in\n{print}");
@@ -712,4 +734,68 @@ fn pages_are_as_large_as_they_must_be() {
     case.scene.meshes[0] = CUBE;
     case.scene.pieces.clear();
     assert_eq!(case.good().buffers, Case { made: Vec::new(), ..case }.good().buffers, "several pages before");
+}
+
+#[test]
+fn seats_have_whole_records_that_can_be_bound() {
+    for casters in 1..40 {
+        let mut case = Case::new(cube_scene());
+        case.scene.casters.extend((1..casters).map(|_| caster_at("more", 0, DVec3::ZERO)));
+        let alone = case.good();
+        assert!(alone.seats == 1 && alone.buffers.iter().all(|buffer| buffer.seats == 1));
+        for (views, seats) in [(2, 2), (3, 4), (8, 8), (100, 8)] {
+            case.all_views = views;
+            let plan = case.good();
+            assert_eq!((plan.seats, &plan.pages), (seats, &alone.pages), "room for each view is what one alone has");
+            for (buffer, alone) in plan.buffers.iter().zip(&alone.buffers) {
+                let BufferPlan { kind, items, seats: had, bytes, .. } = *buffer;
+                assert_eq!((kind, items), (alone.kind, alone.items));
+                match kind.seating() {
+                    Seating::None => assert_eq!((had, bytes), (1, alone.bytes), "{}", kind.name()),
+                    Seating::SideBySide => assert_eq!((had, bytes), (seats, alone.bytes * u64::from(seats))),
+                    Seating::Apart => {
+                        let stride = buffer.stride();
+                        assert_eq!((had, bytes), (seats, stride * u64::from(seats)), "{}", kind.name());
+                        assert!(stride >= alone.bytes && stride.is_multiple_of(256), "{}", kind.name());
+                        assert!(stride.is_multiple_of(kind.item_bytes()), "{} is cut", kind.name());
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn as_many_views_are_tested_together_as_have_room() {
+    let mut case = Case::new(SceneFacts { meshes: vec![TORUS], ..cube_scene() });
+    case.all_views = 8;
+    case.device.max_storage_buffer_binding_size = u64::MAX;
+    case.device.max_buffer_size = u64::MAX;
+    let reason = |plan: &FramePlan| plan.reason(&Omitted::TestsTogether);
+    let seats = |faces: u32| {
+        let mut case = Case { scene: case.scene.clone(), settings: case.settings, ..Case::new(cube_scene()) };
+        (case.all_views, case.scene.meshes[0].faces) = (8, faces);
+        case.scene.meshes[0].two_face_edges = faces * 3 / 2;
+        case.device =
+            DeviceFacts { max_storage_buffer_binding_size: u64::MAX, max_buffer_size: u64::MAX, ..case.device };
+        let plan = case.good();
+        assert_eq!(reason(&plan), (plan.seats < 8).then_some(Reason::ListsAreTooLarge), "{faces}");
+        let bytes = plan.buffers.iter().filter(|buffer| buffer.kind.seating() != Seating::None);
+        assert!(plan.seats == 1 || bytes.map(|buffer| buffer.bytes).sum::<u64>() <= 64 << 20);
+        plan.seats
+    };
+    assert_eq!([1000, 200_000, 400_000, 900_000, 10_000_000].map(seats), [8, 8, 4, 2, 1]);
+    // One list may be too large before all of them are.
+    case.scene.meshes[0] =
+        MeshFacts { faces: 100_000, two_face_edges: 150_000, vertices: 50_000, vertex_edges: 300_000, ..TORUS };
+    assert_eq!(case.good().seats, 8);
+    case.device.max_storage_buffer_binding_size = 150_000 * 16 * 3;
+    assert_eq!((case.good().seats, reason(&case.good())), (2, Some(Reason::ListsAreTooLarge)));
+    // What was made for more views is kept.
+    case.all_views = 1;
+    assert_eq!(case.good().seats, 1);
+    case.all_views = 2;
+    case.made = case.good().buffers.into_iter().filter(|buffer| !buffer.kind.is_of_light()).collect();
+    case.all_views = 1;
+    assert_eq!(case.good().seats, 2);
 }

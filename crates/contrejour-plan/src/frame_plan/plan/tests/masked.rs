@@ -64,3 +64,15 @@ fn where_masks_cut_all_there_are_no_silhouettes() {
     let plan = case.good();
     assert!(plan.stages.is_empty() && plan.passes.is_empty());
 }
+
+#[test]
+fn a_light_that_does_nothing_has_records_where_others_have_seats() {
+    let mut case = Case::new(leaves_and_cube());
+    case.scene.casters.remove(0);
+    case.settings.technique = Technique::ShadowMap;
+    case.shared = case.good().buffers.iter().map(|buffer| buffer.kind).filter(|kind| !kind.is_of_light()).collect();
+    case.outputs = Outputs::Silhouettes;
+    let plan = case.plan().expect("can be planned");
+    assert!(plan.stages.is_empty() && plan.passes.is_empty());
+    assert_eq!(bytes(&plan, BufferKind::LightView), Some(256));
+}
