@@ -222,20 +222,6 @@ impl Gpu {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_the_wanted_adapter_passes() {
-        let name = "SwiftShader Device (Subzero)";
-        assert_eq!(check_adapter(name, None), Ok(()));
-        assert_eq!(check_adapter(name, Some("SwiftShader")), Ok(()));
-        let refused = check_adapter("llvmpipe (LLVM 15.0.6, 256 bits)", Some("SwiftShader"));
-        assert!(refused.is_err_and(|text| text.contains("no SwiftShader but llvmpipe")));
-    }
-}
-
 /// Frames until all lists must have had room.
 const MAX_FRAMES: usize = 5;
 
@@ -265,4 +251,18 @@ pub fn draw_whole(
         }
     }
     Err("lists never had room".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_wanted_adapter_passes() {
+        let name = "SwiftShader Device (Subzero)";
+        assert_eq!(check_adapter(name, None), Ok(()));
+        assert_eq!(check_adapter(name, Some("SwiftShader")), Ok(()));
+        let refused = check_adapter("llvmpipe (LLVM 15.0.6, 256 bits)", Some("SwiftShader"));
+        assert!(refused.is_err_and(|text| text.contains("no SwiftShader but llvmpipe")));
+    }
 }

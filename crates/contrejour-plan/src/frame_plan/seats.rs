@@ -8,8 +8,8 @@ use super::{BufferPlan, DeviceFacts, PlanInput, Seating};
 /// What the lists of views that are tested together may take, all of them. Unit: bytes.
 ///
 /// A face with its edges takes some 33 bytes for each view, so eight views are tested together in scenes of up to some
-/// 250 thousand faces that cast, and one view alone in those of more than a million, which costs what it must.
-const MOST_BYTES: u64 = 64 << 20;
+/// 300 thousand faces that cast, and one view alone in those of more than a million, which costs what it must.
+const MOST_BYTES: u64 = 80 << 20;
 
 /// Seats for all views of a scene, at most eight: a power of two, as many as the lists have room for. Those that were made
 /// are kept, also where less would do.
