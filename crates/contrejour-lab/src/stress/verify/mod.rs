@@ -38,6 +38,13 @@ struct Left {
     caster_lights: wgpu::Buffer,
 }
 
+/// What the device made of a mesh that deforms.
+struct Deformed {
+    oracle: ManyLights,
+    /// Around its positions.
+    bounds: [[f32; 3]; 2],
+}
+
 /// What 32-bit floats may do to a position of a torus of radius 1 on its way through a morph target and two joints: some 20
 /// roundings of 2^-24 of numbers up to 4.
 const POSE_TOLERANCE: f64 = 5e-6;
@@ -100,7 +107,7 @@ impl<'a> Verifier<'a> {
         left: &Left,
         (view, reach_ndc): (&View, f64),
         places: &[DMat4],
-        deformed: &[ManyLights],
+        deformed: &[Deformed],
         what: &str,
     ) -> Result<(), StressError> {
         let caster_lights: Vec<CasterLight> = read(gpu, &left.caster_lights, left.caster_lights.size())?;
@@ -116,15 +123,15 @@ impl<'a> Verifier<'a> {
         for (index, place) in places.iter().enumerate() {
             let expected = caster_light(view, place, &near_one);
             let found = &caster_lights[index];
+            let deformed = self.world.flexible_index(index).map(|index| &deformed[index]);
             if found.casts != 0 && expected.casts == 0 {
                 self.differ(&format!("{what}: caster {index} casts, and can't"));
             }
             if found.casts == 0 {
-                let shrunk = [mesh.bounds_min, mesh.bounds_max].map(|corner| corner.map(|x| x * CERTAINLY as f32));
-                let bounds = ObjectBox { min: shrunk[0], max: shrunk[1], world_from_object: *place };
-                // Nobody knows where the positions of the others are.
-                let is_anywhere = self.world.flexible_index(index).is_some();
-                if is_anywhere || expected.casts != 0 && view.can_see(&bounds, CERTAINLY * reach_ndc) {
+                let [min, max] =
+                    shrunk(deformed.map_or([mesh.bounds_min, mesh.bounds_max], |deformed| deformed.bounds));
+                let bounds = ObjectBox { min, max, world_from_object: *place };
+                if expected.casts != 0 && view.can_see(&bounds, CERTAINLY * reach_ndc) {
                     self.differ(&format!("{what}: caster {index} is left out"));
                 }
                 continue;
@@ -133,7 +140,7 @@ impl<'a> Verifier<'a> {
                 self.differ(&format!("{what}: caster {index} sees another light"));
             }
             if !left.pages.is_empty() {
-                let oracle = self.world.flexible_index(index).map_or(&self.rigid, |index| &deformed[index]);
+                let oracle = deformed.map_or(&self.rigid, |deformed| &deformed.oracle);
                 casting += silhouettes.iter().filter(|edge| edge.caster as usize == index).count();
                 let is_same = self.has_silhouette(oracle, &expected, index, &silhouettes);
                 if !is_same {
@@ -172,7 +179,7 @@ impl<'a> Verifier<'a> {
 
     /// What the device moved, as exact arithmetic sees it; each position is held against the CPU's own pose first, or a
     /// wrong pose would verify itself.
-    fn deformed(&mut self, gpu: &Gpu, placed: &Placed, frame: u64) -> Result<Vec<ManyLights>, StressError> {
+    fn deformed(&mut self, gpu: &Gpu, placed: &Placed, frame: u64) -> Result<Vec<Deformed>, StressError> {
         let mut deformed = Vec::new();
         for (positions, pose) in placed.flexible_positions().zip(self.world.flexible_poses(frame)) {
             let Positions::InBuffer { buffer, offset, .. } = positions else { continue };
@@ -190,7 +197,11 @@ impl<'a> Verifier<'a> {
             if !is_posed {
                 self.differ(&format!("frame {frame}: a deformed position is {largest} off the CPU's"));
             }
-            deformed.push(ManyLights::new(&self.flexible.clone().moved(&found)));
+            let corner = |pick: fn(f32, f32) -> f32| {
+                found.iter().copied().reduce(|one, other| [0, 1, 2].map(|axis| pick(one[axis], other[axis])))
+            };
+            let bounds = [corner(f32::min), corner(f32::max)].map(Option::unwrap_or_default);
+            deformed.push(Deformed { oracle: ManyLights::new(&self.flexible.clone().moved(&found)), bounds });
         }
         Ok(deformed)
     }
@@ -199,6 +210,17 @@ impl<'a> Verifier<'a> {
         self.differences += 1;
         self.first_difference.get_or_insert_with(|| difference.to_owned());
     }
+}
+
+/// A box that is certainly seen where this one is.
+fn shrunk([min, max]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
+    let shrunk = |from: [f32; 3], to: [f32; 3]| {
+        [0, 1, 2].map(|axis| {
+            let [from, to] = [from[axis], to[axis]].map(f64::from);
+            (0.5 * (from + to) + 0.5 * CERTAINLY * (from - to)) as f32
+        })
+    };
+    [shrunk(min, max), shrunk(max, min)]
 }
 
 /// Draws the frame of a scene again, and keeps what each view leaves.
