@@ -91,7 +91,8 @@ impl Drawn {
     /// Moves the model for a frame, where it moves.
     pub fn pose(&self, renderer: &mut Renderer, sequence: Sequence, frame: u32) -> Result<(), Failure> {
         if let (Self::Moving(animated), Sequence::Animation(_)) = (self, sequence) {
-            renderer.pose(animated, animated.time(frame))?;
+            let posed = renderer.pose(animated, animated.time(frame));
+            posed.map_err(|error| format!("{}: {error}", animated.path().display()))?;
         }
         Ok(())
     }

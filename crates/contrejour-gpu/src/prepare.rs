@@ -109,6 +109,9 @@ impl Shadows {
         let scopes = OpenScopes::push(device);
         let set_up = self.buffers.follow(device, queue, &plans, (&mut self.meshes, &mut self.casters));
         self.stats.set_up_bytes = set_up.bytes;
+        if set_up.has_new_buffers {
+            self.last_seat = 0;
+        }
         for ((_, light), plan) in self.lights.iter_mut().zip(plans) {
             light.follow(device, plan, self.buffers.shared_and_pipelines(), set_up.has_new_buffers);
         }
@@ -123,6 +126,7 @@ impl Shadows {
     fn keep_if(&mut self, made: Result<(), DeviceError>) -> Result<(), DeviceError> {
         if made.is_err() {
             self.buffers = Default::default();
+            self.last_seat = 0;
             self.readback.drop_room();
             self.lights.iter_mut().for_each(|(_, light)| light.drop_made());
             self.is_stale = true;

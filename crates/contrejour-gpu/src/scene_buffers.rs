@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::iter::repeat;
 
 use contrejour_layout::{BundleShape, CasterPlace};
-use contrejour_plan::{BufferKind, BufferPlan, FramePlan, Omitted, PagePlan};
+use contrejour_plan::{BufferKind, BufferPlan, FramePlan, PagePlan};
 
 use crate::buffers::{Buffers, MadeBuffer};
 use crate::caster_tables::CasterTable;
@@ -146,7 +146,7 @@ impl SceneBuffers {
     ) -> Stale {
         let before = (self.has_planes, self.has_edges);
         // Where nobody reads planes, their buffer has no room for them.
-        self.has_planes = plan.reason(&Omitted::FacePlanes).is_none() && plan.buffer(BufferKind::Planes).is_some();
+        self.has_planes = plan.buffer(BufferKind::Planes).is_some_and(|planes| planes.items > 0);
         self.has_edges = plan.buffer(BufferKind::Edges).is_some();
         let pieces = !have_one_page && (meshes.has_changed() || !hold_the_same_pieces(&self.pages, &plan.pages));
         let casters_differ = || casters.has_changed() || !hold_the_same_casters(&self.pages, &plan.pages);

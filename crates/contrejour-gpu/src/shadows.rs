@@ -236,7 +236,8 @@ impl Shadows {
 
     /// A buffer of the frame, where a plan lists it: the silhouette list and its counters stay here for stages of the
     /// caller's. Views that are tested together have [parts of their own](contrejour_plan::Seating) of a list, and the next
-    /// ones fill them anew: this is the part of the last view of the last light that was recorded, as it can be bound. A
+    /// ones fill them anew: this is the part of the last view of the last light that was recorded, as it can be bound; of lists
+    /// that views have test by test, such as lit bits, it is all of them ([`FilledView`](crate::FilledView) knows the seat). A
     /// later [`prepare`](Self::prepare) may replace the buffer. Where a scene fills several pages this is the first one's:
     /// [`buffers`](Self::buffers) are all.
     pub fn buffer(&self, kind: BufferKind) -> Option<wgpu::BufferSlice<'_>> {

@@ -22,6 +22,7 @@ const MOST_FITTED: u32 = 256;
 pub struct AnimatedScene {
     /// The scene in the first frame. Its first meshes are those of the model.
     pub scene: Scene,
+    path: PathBuf,
     model: AnimatedModel,
     animation: usize,
     times: FrameTimes,
@@ -143,7 +144,12 @@ impl AnimatedScene {
         }
         let mut scene = view.posed(&first, first_time).map_err(posed)?.scene(meshes, bounds);
         scene.warnings.splice(0..0, model.file.warnings.iter().cloned());
-        Ok(Self { scene, model, animation, times, view, bounds })
+        Ok(Self { scene, path: path.to_owned(), model, animation, times, view, bounds })
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Time of a frame, in seconds.

@@ -55,13 +55,17 @@ impl FileView {
         Ok(Self { camera: file.cameras.get(index).cloned(), lights: file.lights.clone() })
     }
 
-    /// The same where the nodes are in a pose.
+    /// The same where the nodes are in a pose; lights that no scene takes stay where they are.
     pub fn posed(&self, pose: &Pose, time: f64) -> Result<Self, PoseError> {
         let at = |node: usize| move |source| PoseError::Outlook { node, time, source };
         let matrix = |node: usize| &pose.world_from_nodes[node];
         let camera = self.camera.as_ref().map(|seen| seen.seen_from(matrix(seen.node)).map_err(at(seen.node)));
-        let lights = self.lights.iter().map(|light| light.shining_from(matrix(light.node)).map_err(at(light.node)));
-        Ok(Self { camera: camera.transpose()?, lights: lights.collect::<Result<_, _>>()? })
+        let mut posed = self.clone();
+        posed.camera = camera.transpose()?;
+        for light in posed.lights.iter_mut().take(Scene::MAX_LIGHTS) {
+            *light = light.shining_from(matrix(light.node)).map_err(at(light.node))?;
+        }
+        Ok(posed)
     }
 
     /// The camera and the lights alone of the scene that it makes; none of what the file does not bring.

@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use contrejour_gpu::{CasterHandle, CasterInput, LightHandle, MeshHandle, Positions, ShadowOptions, Shadows, Untimed};
-use contrejour_plan::{Light, LightKind, Omitted, Reason, ShadowSettings};
+use contrejour_mesh::TopologyAwareMesh;
+use contrejour_plan::{BufferKind, Light, LightKind, Omitted, Reason, ShadowSettings};
+use contrejour_scene::shapes::Shape;
 use contrejour_tests::compare::compare_exact;
-use contrejour_tests::gpu::{Gpu, draw_whole};
+use contrejour_tests::gpu::{Gpu, draw_whole, gpu_with_small_buffers};
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::point;
 use contrejour_tests::meshes::shapes;
@@ -20,6 +22,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("many_lights::what_saw_no_change_is_kept", what_saw_no_change_is_kept),
         gpu_trial("many_lights::what_is_kept_is_what_would_be_drawn", what_is_kept_is_what_would_be_drawn),
         gpu_trial("many_lights::thousands_come_and_go", thousands_come_and_go),
+        gpu_trial("many_lights::lists_are_there_where_seats_went", lists_are_there_where_seats_went),
         gpu_trial("many_lights::commands_do_not_follow_the_casters", commands_do_not_follow_the_casters),
     ]
 }
@@ -237,6 +240,44 @@ fn thousands_come_and_go(gpu: &Gpu) -> Outcome {
     crowd.draw()?;
     compare_exact("maps of the light that stayed", &before, &crowd.maps(stays)?)?;
     if largest < 70 { Ok(()) } else { Err(format!("casters got the index {largest}")) }
+}
+
+/// A mesh comes beside which fewer views can be tested together. No light sees it, so nothing is drawn, and the lists that a
+/// caller asks for are parts of buffers all the same.
+fn lists_are_there_where_seats_went(_: &Gpu) -> Outcome {
+    let gpu = gpu_with_small_buffers(256 << 10)?;
+    let torus = |sides: u32| -> Result<_, String> {
+        let shape = Shape::Torus { radius: 1.0, tube_radius: 0.3, segments: sides, sides };
+        let torus = shape.generate().map_err(text)?;
+        let built = TopologyAwareMesh::build(&torus.positions, &torus.triangles, &Default::default());
+        built.map(Arc::new).map_err(text)
+    };
+    let mut shadows = Shadows::new(&gpu.device).map_err(text)?;
+    let place = |shadows: &mut Shadows, sides: u32, middle: DVec3| {
+        let mesh = shadows.add_mesh(torus(sides)?).map_err(text)?;
+        let world_from_object = DMat4::from_translation(middle);
+        shadows.add_caster(&CasterInput { mesh, world_from_object, positions: Positions::OfMesh }).map_err(text)
+    };
+    place(&mut shadows, 8, DVec3::ZERO)?;
+    let options =
+        ShadowOptions { settings: ShadowSettings { map_size: 64, ..Default::default() }, ..Default::default() };
+    let mut light = None;
+    for step in 0..8 {
+        let position = DVec3::new(3.0 + 0.1 * f64::from(step), 4.0, 1.0);
+        light = Some(shadows.add_light(&point(position, DVec3::ZERO, 2.0), &options).map_err(text)?);
+    }
+    draw_whole(&gpu, &mut shadows, |_| ())?;
+    let seats = |shadows: &Shadows| light.and_then(|light| shadows.plan(light)).map_or(0, |plan| plan.seats);
+    let before = seats(&shadows);
+    place(&mut shadows, 60, DVec3::splat(1e3))?;
+    shadows.prepare(&gpu.device, &gpu.queue).map_err(text)?;
+    let after = seats(&shadows);
+    let list = shadows.buffer(BufferKind::Silhouettes).ok_or("it is listed")?;
+    let is_there = list.offset() + list.size() <= list.buffer().size();
+    if is_there && before == 8 && after < before && shadows.stats().lights_redone == 0 {
+        return Ok(());
+    }
+    Err(format!("from {before} seats to {after}, {} lights are redone: {is_there}", shadows.stats().lights_redone))
 }
 
 fn commands_do_not_follow_the_casters(gpu: &Gpu) -> Outcome {

@@ -1,18 +1,22 @@
 //! A mesh that is too large for the device's buffers is spread over pages, and nothing else is different.
 
-use contrejour_gpu::ShadowOptions;
+use std::sync::Arc;
+
+use contrejour_gpu::{CasterInput, Positions, ShadowOptions, Shadows};
 use contrejour_layout::{Corner, Quad, SilhouetteEdge, VertexEdge};
 use contrejour_oracle::{ManyLights, OracleTopology};
 use contrejour_plan::{BufferKind, Light, MeshPiece, NearOne, ShadowSettings, caster_light, views};
 use contrejour_tests::compare::{compare_exact, compare_records};
-use contrejour_tests::gpu::{Gpu, gpu_with_small_buffers};
+use contrejour_tests::gpu::{Gpu, draw_whole, gpu_with_small_buffers};
 use contrejour_tests::harness::{Outcome, gpu_trial};
-use contrejour_tests::lights::lights;
+use contrejour_tests::lights::{lights, point};
 use contrejour_tests::meshes::{TestMesh, shapes, shared_named, tiny};
 use contrejour_tests::pipeline::Pipeline;
-use contrejour_tests::texture::{read_depth, read_floats, read_half_floats};
+use contrejour_tests::texture::{read_depth, read_floats, read_half_floats, read_maps};
+use glam::{DMat4, DVec3};
 use libtest_mimic::Trial;
 
+use crate::many_lights::text;
 use crate::{closed, exact};
 
 /// Bytes that a shader may see of a buffer.
@@ -28,8 +32,40 @@ const FILES: [&str; 4] =
 pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("pages::leave_what_one_page_leaves", leave_what_one_page_leaves),
+        gpu_trial("pages::what_casts_fits_one_page_and_the_rest_does_not", what_casts_fits_one_page),
         gpu_trial("pages::a_vertex_without_the_edges_of_other_pages_is_found", missing_neighbours_are_found),
     ]
+}
+
+/// Meshes without casters are on no page, where there is no room for all of them.
+fn what_casts_fits_one_page(gpu: &Gpu) -> Outcome {
+    let small = gpu_with_small_buffers(180 << 10)?;
+    let maps = |gpu: &Gpu| -> Result<_, String> {
+        let mut shadows = Shadows::new(&gpu.device).map_err(text)?;
+        let mut smallest = None;
+        for shape in shapes() {
+            let topology = &shape.parts[0].topology;
+            let mesh = shadows.add_mesh(Arc::clone(topology)).map_err(text)?;
+            smallest = smallest.into_iter().chain([(topology.faces.len(), mesh)]).min();
+        }
+        let (_, mesh) = smallest.ok_or("there are shapes")?;
+        let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions: Positions::OfMesh };
+        shadows.add_caster(&caster).map_err(text)?;
+        let light = shadows.add_light(&point(DVec3::new(2.0, 3.0, 1.0), DVec3::ZERO, 2.0), &options()).map_err(text)?;
+        draw_whole(gpu, &mut shadows, |_| ())?;
+        let plan = shadows.plan(light).ok_or("a frame was prepared")?;
+        let pages = plan.pages.iter().filter(|page| !page.casters.is_empty()).count();
+        Ok((read_maps(gpu, &shadows, light)?, plan.pages.len(), pages))
+    };
+    let (expected, whole, _) = maps(gpu)?;
+    let (found, all, used) = maps(&small)?;
+    compare_exact("maps", &expected, &found)?;
+    // Else something else is tried.
+    if whole == 1 && all > 1 && used == 1 {
+        Ok(())
+    } else {
+        Err(format!("{whole} pages, {all} of which {used} are used"))
+    }
 }
 
 fn options() -> ShadowOptions {

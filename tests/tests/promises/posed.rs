@@ -25,6 +25,8 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("posed::what_saw_no_other_pose_is_kept", what_saw_no_other_pose_is_kept),
         gpu_trial("posed::what_is_kept_is_what_would_be_drawn", what_is_kept_is_what_would_be_drawn),
         gpu_trial("posed::a_box_of_another_pose_is_found", a_box_of_another_pose_is_found),
+        gpu_trial("posed::what_is_known_was_prepared", what_is_known_was_prepared),
+        gpu_trial("posed::lights_come_in_any_order", lights_come_in_any_order),
         gpu_trial("posed::what_is_no_box_is_refused", what_is_no_box_is_refused),
     ]
 }
@@ -221,6 +223,67 @@ fn a_box_of_another_pose_is_found(gpu: &Gpu) -> Outcome {
     let (whole, lacking) = (maps(&pose)?, maps(&tube().poses[1])?);
     let is_found: Vec<_> = whole.iter().zip(&lacking).map(|(whole, lacking)| whole != lacking).collect();
     if is_found == [false, true, true] { Ok(()) } else { Err(format!("maps that differ: {is_found:?}")) }
+}
+
+/// Between poses and frames meshes come, and one without a pose lets a frame fail: positions are never older than what is
+/// known of them.
+fn what_is_known_was_prepared(gpu: &Gpu) -> Outcome {
+    let poses = tube().poses;
+    let expected = {
+        let mut tubes = Tubes::new(gpu, &poses[2..3], Told::Known)?;
+        tubes.draw()?;
+        tubes.maps()?
+    };
+    let draw = |tubes: &mut Tubes<'_>| {
+        let known = tubes.deformer.known(tubes.handles[0].0).ok_or("a posed mesh is known")?;
+        tubes.shadows.note_positions(tubes.handles[0].1, &known).map_err(text)?;
+        let Tubes { shadows, deformer, .. } = tubes;
+        draw_whole(gpu, shadows, |encoder| deformer.encode(encoder, &mut Untimed))
+    };
+    let add = |tubes: &mut Tubes<'_>| tubes.deformer.add(Arc::clone(&tubes.mesh.deforming)).map_err(text);
+
+    let mut tubes = Tubes::new(gpu, &poses[..1], Told::Known)?;
+    tubes.draw()?;
+    tubes.set_pose(0, &poses[2])?;
+    tubes.deformer.prepare(&gpu.device, &gpu.queue).map_err(text)?;
+    add(&mut tubes)?;
+    draw(&mut tubes)?;
+    if tubes.maps()? != expected {
+        return Err("a mesh that came before the frame was recorded leaves the pose before".into());
+    }
+
+    let mut tubes = Tubes::new(gpu, &poses[..1], Told::Known)?;
+    tubes.draw()?;
+    tubes.set_pose(0, &poses[2])?;
+    let guest = add(&mut tubes)?;
+    if tubes.deformer.prepare(&gpu.device, &gpu.queue).is_ok() {
+        return Err("a mesh without a pose is prepared".into());
+    }
+    draw(&mut tubes)?;
+    tubes.deformer.remove(guest);
+    tubes.draw()?;
+    if tubes.maps()? == expected { Ok(()) } else { Err("a frame that failed leaves the pose before".into()) }
+}
+
+/// Planes of faces are asked for by lights that test them, and there are none of what deforms.
+fn lights_come_in_any_order(gpu: &Gpu) -> Outcome {
+    let maps = |techniques: [&str; 2]| -> Result<Vec<Vec<u8>>, String> {
+        let mut tubes = Tubes::new(gpu, &tube().poses[..1], Told::Known)?;
+        for light in tubes.lights.drain(..) {
+            tubes.shadows.remove_light(light).map_err(text)?;
+        }
+        for technique in techniques {
+            let technique = technique.parse().map_err(text)?;
+            let settings = ShadowSettings { map_size: 64, technique, ..Default::default() };
+            let options = ShadowOptions { settings, ..Default::default() };
+            tubes.lights.push(tubes.shadows.add_light(&lights()[0], &options).map_err(text)?);
+        }
+        tubes.draw()?;
+        tubes.maps()
+    };
+    let mut turned = maps(["smoothies", "pcf"])?;
+    turned.reverse();
+    if maps(["pcf", "smoothies"])? == turned { Ok(()) } else { Err("maps differ with the order of lights".into()) }
 }
 
 fn what_is_no_box_is_refused(gpu: &Gpu) -> Outcome {

@@ -138,7 +138,7 @@ impl Deformer {
         if self.resources.is_none() {
             self.pool.pack(self.most_bytes);
         }
-        if let Some((&caster, _)) = self.pool.casters.iter().find(|(_, caster)| caster.known.is_none()) {
+        if let Some((&caster, _)) = self.pool.casters.iter().find(|(_, caster)| caster.latest.is_none()) {
             return Err(DeformError::MissingPose { caster });
         }
         if self.pool.casters.is_empty() {
@@ -160,6 +160,7 @@ impl Deformer {
         if let Some(resources) = &self.resources {
             self.upload_bytes = resources.upload(queue, &mut self.pool);
             self.is_due |= self.upload_bytes > 0;
+            self.pool.note_posed();
         }
         Ok(())
     }
@@ -172,23 +173,19 @@ impl Deformer {
         made
     }
 
-    /// Records the stage; nothing where no pose changed since it was last recorded and no mesh came, or where no frame was
-    /// prepared since then.
+    /// Records the stage for what was [prepared](Self::prepare) last; nothing where that has been recorded.
     ///
     /// The encoder's commands must be submitted, or dropped together with this object.
     pub fn encode<T: PassTimer>(&mut self, encoder: &mut wgpu::CommandEncoder, timer: &mut T) {
-        let is_prepared = !self.pool.has_changed;
-        if let (Some(pipeline), Some(resources), true, true) =
-            (&self.pipeline, &self.resources, is_prepared, self.is_due)
-        {
+        if let (Some(pipeline), Some(resources), true) = (&self.pipeline, &self.resources, self.is_due) {
             pipeline.encode(encoder, resources, timer);
             self.is_due = false;
         }
     }
 
     /// Where the positions of a mesh lie once the recorded commands have run, for [`CasterInput`](crate::CasterInput)
-    /// and, as 12 bytes a vertex, for vertex buffers; none before a frame was prepared with the mesh. What is
-    /// [known](Self::known) of them is that of the latest pose.
+    /// and, as 12 bytes a vertex, for vertex buffers; none before a frame was prepared with the mesh. With
+    /// what is [known](Self::known) of them.
     pub fn positions(&self, caster: DeformHandle) -> Option<Positions> {
         let caster = self.pool.casters.get(&caster).filter(|caster| !caster.is_new)?;
         let buffer = self.resources.as_ref()?.positions(caster.batch)?;
@@ -200,7 +197,8 @@ impl Deformer {
         })
     }
 
-    /// Which positions a mesh has in its latest pose, and where, for [`Shadows::note_positions`]; none before it has any.
+    /// Which positions a mesh has in the pose that was [prepared](Self::prepare) last, and where, for
+    /// [`Shadows::note_positions`]; none before that was done.
     pub fn known(&self, caster: DeformHandle) -> Option<KnownPositions> {
         self.pool.casters.get(&caster)?.known
     }

@@ -66,6 +66,8 @@ pub(super) struct DeformingCaster {
     pub batch: usize,
     pub first_word: u64,
     /// Where its latest pose puts its vertices; none before it has any.
+    pub latest: Option<KnownPositions>,
+    /// Where the pose does that was uploaded last.
     pub known: Option<KnownPositions>,
     pub is_new: bool,
     blocks: Range<u64>,
@@ -141,7 +143,7 @@ impl Pool {
         let first_block = batch.blocks.take(block_count(&mesh));
         let blocks = first_block..first_block + block_count(&mesh);
         batch.records.put(first_block as usize, deform_blocks(&mesh, mesh_starts, starts, first_word));
-        DeformingCaster { mesh, starts, batch: index, first_word, known: None, is_new: true, blocks }
+        DeformingCaster { mesh, starts, batch: index, first_word, latest: None, known: None, is_new: true, blocks }
     }
 
     /// Gives a caster a pose; what it had already is not written again.
@@ -151,13 +153,13 @@ impl Pool {
         let DevicePose { joint_matrices, morph_weights } = pose;
         let is_same = are_same(self.joint_matrices.get(joints.clone()), joint_matrices)
             && are_same(self.morph_weights.get(weights.clone()), morph_weights);
-        if is_same && caster.known.is_some() {
+        if is_same && caster.latest.is_some() {
             return;
         }
         self.joint_matrices.put(joints.start, joint_matrices.iter().copied());
         self.morph_weights.put(weights.start, morph_weights.iter().copied());
         self.versions += 1;
-        caster.known = Some(KnownPositions { version: self.versions, bounds });
+        caster.latest = Some(KnownPositions { version: self.versions, bounds });
     }
 
     /// The first batch with room; its blocks are fewer bytes than its positions, but for tiny meshes.
@@ -212,8 +214,8 @@ impl Pool {
         for (handle, caster) in before.casters {
             let [joints, weights] = caster.pose_places();
             let mut placed = self.place(caster.mesh, most.min(4 * u64::from(u32::MAX)) / 4);
-            if caster.known.is_some() {
-                placed.known = caster.known;
+            if caster.latest.is_some() {
+                placed.latest = caster.latest;
                 let [new_joints, new_weights] = placed.pose_places();
                 self.joint_matrices.put(new_joints.start, before.joint_matrices.get(joints).iter().copied());
                 self.morph_weights.put(new_weights.start, before.morph_weights.get(weights).iter().copied());
@@ -225,6 +227,11 @@ impl Pool {
     /// Where the last record of each pool ends.
     pub fn ends(&self) -> PerPool<u64> {
         self.places.each_ref().map(Ranges::end)
+    }
+
+    /// Notes that the latest poses are on the device.
+    pub fn note_posed(&mut self) {
+        self.casters.values_mut().for_each(|caster| caster.known = caster.latest);
     }
 
     /// Notes that everything is on the device.

@@ -66,12 +66,14 @@ impl PoseBounds {
         let mut skinned: Option<Box3> = None;
         // The largest magnitudes of what is added, and of the points that matrices move.
         let (mut size, mut point_size) = (DVec3::ZERO, DVec3::ZERO);
+        let mut matrix_size = DVec3::ZERO;
         for (&joint, rest) in &self.of_joints {
             let matrix = &joint_matrices[joint as usize];
             let rest_size = rest.size() + shift_size;
             skinned = rest.sum(&shift).moved(matrix).with(skinned);
             size = size.max(weights * abs(matrix).transform_point3(rest_size));
             point_size = point_size.max(rest_size);
+            matrix_size = matrix_size.max(abs(matrix).transform_vector3(DVec3::ONE));
         }
         let still = self.still.map(|still| {
             size = size.max(still.size() + shift_size);
@@ -79,7 +81,7 @@ impl PoseBounds {
         });
         let skinned = skinned.map(|skinned| skinned.grown(weights));
         let Some(all) = skinned.or(still).and_then(|all| all.with(still)) else { return [[0.0; 3]; 2] };
-        let margin = self.margin(size, point_size);
+        let margin = self.margin(size, DVec3::splat(point_size.max_element()) + matrix_size);
         let is_held = (size + margin).max(point_size).max_element() < f64::from(f32::MAX);
         // Where sums overflow, nobody knows to which side.
         let all = if is_held { all } else { Box3 { min: DVec3::MIN, max: DVec3::MAX } };
@@ -88,10 +90,10 @@ impl PoseBounds {
     }
 
     /// What rounding may be off by: 2^-23 of a sum for each of its terms and for some more operations, twice over; and what
-    /// is below 2^-126 may be taken for zero, before or after it is multiplied.
-    fn margin(&self, size: DVec3, point_size: DVec3) -> DVec3 {
+    /// is below 2^-126 may be taken for zero, before or after it is multiplied by one of the factors.
+    fn margin(&self, size: DVec3, factors: DVec3) -> DVec3 {
         let terms = (4 * self.most_influences + 2 * self.most_deltas + 8) as f64;
-        let flushed = f64::from(f32::MIN_POSITIVE) * (DVec3::ONE + size + point_size.max_element());
+        let flushed = f64::from(f32::MIN_POSITIVE) * (DVec3::ONE + size + factors);
         terms * (2.0 * f64::from(f32::EPSILON) * size + (1.0 + self.largest_weights) * flushed)
     }
 }

@@ -99,7 +99,7 @@ impl Page {
     }
 }
 
-/// Spreads a scene over at least one page whose buffers of the given kinds the device allows, as far as it can be cut.
+/// Spreads a scene over one page, where all meshes fit it, or over several, each with what casts there, whose buffers of the given kinds the device allows, as far as it can be cut.
 /// `empty` are the sizes of a page without pieces.
 pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFacts, empty: PageSizes) -> Vec<Page> {
     let whole = Page::whole(scene, empty);
@@ -127,5 +127,9 @@ pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFac
         }
     }
     full.push(page);
+    if full.len() == 1 {
+        // On an only page every mesh would have its own place.
+        full.push(Page::new(empty));
+    }
     full
 }
