@@ -211,12 +211,12 @@ mod tests {
 
     #[test]
     fn meshes_share_pictures_of_one_cutoff() {
-        let image = MaskImage::new([5, 3], vec![9; 15], Default::default(), TextureFilter::Linear);
+        let image = MaskImage::new([24, 16], vec![9; 384], Default::default(), TextureFilter::Linear);
         let image = Arc::new(image.expect("it is good"));
         let mut pool = MaskPool::default();
         let keys = [0.5, 0.5, 0.25].map(|cutoff| pool.add(&masked(&image, cutoff)).expect("they are small"));
         assert_eq!(keys.map(MaskPool::number), [1, 2, 3]);
-        let picture_words = (16 + 4 + 4) / 4;
+        let picture_words = (24 * 16 + 12 * 8) / 4;
         assert_eq!(image.level_bytes(), 4 * picture_words);
         assert_eq!(pool.facts(), MaskFacts { count: 3, words: 3 * 9 + 2 * picture_words });
         let mut written = vec![0; 4 * pool.facts().words as usize];
@@ -227,8 +227,8 @@ mod tests {
         let records: Vec<_> = pool.masks.iter().map(|(_, mask)| mask.record()).collect();
         assert_eq!(records[0].first_texel_word, records[1].first_texel_word);
         for record in &records {
-            assert_eq!(written[4 * record.first_texel_word as usize..][..15], [9; 15]);
-            assert_eq!((record.width, record.height, record.levels), (5, 3, 3));
+            assert_eq!(written[4 * record.first_texel_word as usize..][..384], [9; 384]);
+            assert_eq!((record.width, record.height, record.levels), (24, 16, 2));
         }
 
         // What stays is where it was, and a picture goes with the last mask that has it.
