@@ -119,8 +119,7 @@ impl Deformer {
         let DeformInput { caster: handle, joint_matrices, morph_weights } = *input;
         let caster = self.pool.casters.get(&handle).ok_or(SetPoseError::UnknownCaster { caster: handle })?;
         let pose = DevicePose::new(handle, &caster.mesh, (joint_matrices, morph_weights))?;
-        let bounds = caster.mesh.posed_bounds(joint_matrices, morph_weights);
-        self.pool.set_pose(handle, &pose, bounds);
+        self.pool.set_pose(handle, &pose, |mesh| mesh.posed_bounds(joint_matrices, morph_weights));
         Ok(())
     }
 

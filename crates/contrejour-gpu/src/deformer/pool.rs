@@ -146,8 +146,13 @@ impl Pool {
         DeformingCaster { mesh, starts, batch: index, first_word, latest: None, known: None, is_new: true, blocks }
     }
 
-    /// Gives a caster a pose; what it had already is not written again.
-    pub fn set_pose(&mut self, handle: DeformHandle, pose: &DevicePose, bounds: [[f32; 3]; 2]) {
+    /// Gives a caster a pose; what it had already is not written again, and nobody asks for its `bounds`.
+    pub fn set_pose(
+        &mut self,
+        handle: DeformHandle,
+        pose: &DevicePose,
+        bounds: impl FnOnce(&DeformingMesh) -> [[f32; 3]; 2],
+    ) {
         let Some(caster) = self.casters.get_mut(&handle) else { return };
         let [joints, weights] = caster.pose_places();
         let DevicePose { joint_matrices, morph_weights } = pose;
@@ -159,7 +164,7 @@ impl Pool {
         self.joint_matrices.put(joints.start, joint_matrices.iter().copied());
         self.morph_weights.put(weights.start, morph_weights.iter().copied());
         self.versions += 1;
-        caster.latest = Some(KnownPositions { version: self.versions, bounds });
+        caster.latest = Some(KnownPositions { version: self.versions, bounds: bounds(&caster.mesh) });
     }
 
     /// The first batch with room; its blocks are fewer bytes than its positions, but for tiny meshes.
