@@ -73,10 +73,8 @@ impl Buffers {
     ///
     /// As [`get`](Self::get).
     pub fn part(&self, kind: BufferKind, page: usize, seat: usize) -> wgpu::BufferSlice<'_> {
-        match self.listed(kind, page) {
-            Some((plan, buffer)) => part(plan, buffer, seat),
-            None => panic!("the frame plan lists no buffer `{}` for a stage that binds it", kind.name()),
-        }
+        let (plan, buffer) = self.bound(kind, page);
+        part(plan, buffer, seat)
     }
 
     /// The buffers of a kind, page by page.
@@ -90,8 +88,12 @@ impl Buffers {
     ///
     /// When the plan lists a stage without its buffers: a defect of the plan, which its tests rule out.
     pub fn get(&self, kind: BufferKind, page: usize) -> &wgpu::Buffer {
-        match self.find(kind, page) {
-            Some(buffer) => buffer,
+        &self.bound(kind, page).1
+    }
+
+    fn bound(&self, kind: BufferKind, page: usize) -> &(BufferPlan, wgpu::Buffer) {
+        match self.listed(kind, page) {
+            Some(listed) => listed,
             None => panic!("the frame plan lists no buffer `{}` for a stage that binds it", kind.name()),
         }
     }
