@@ -99,8 +99,8 @@ impl Page {
     }
 }
 
-/// Spreads a scene over one page, where all meshes fit it, or over several, each with what casts there, whose buffers of the given kinds the device allows, as far as it can be cut.
-/// `empty` are the sizes of a page without pieces.
+/// Spreads a scene over one page, where all meshes fit it, or over several, each with what casts there, whose buffers of the
+/// given kinds the device allows, as far as it can be cut. `empty` are the sizes of a page without pieces.
 pub(super) fn pages(scene: &SceneFacts, kinds: &[BufferKind], device: &DeviceFacts, empty: PageSizes) -> Vec<Page> {
     let whole = Page::whole(scene, empty);
     if whole.sizes.fit(kinds, device) {
