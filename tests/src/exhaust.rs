@@ -94,8 +94,12 @@ pub struct OwnPositions {
 struct Waiting {
     light: ObjectLight,
     buffer: wgpu::Buffer,
+    layout: Layout,
     submission: wgpu::SubmissionIndex,
 }
+
+/// Sizes of what comes back of a frame, page after page of each of [`FOUND`]. Unit: bytes.
+type Layout = [Vec<u64>; 3];
 
 /// What a frame left on the device.
 pub struct Found {
@@ -203,11 +207,11 @@ impl<'a> Exhaust<'a> {
         for light in lights {
             waiting.push_back(self.submit(*light)?);
             if waiting.len() > IN_FLIGHT {
-                self.check_next(&mut waiting, &mut tally);
+                self.check_next(&mut waiting, &mut tally)?;
             }
         }
         while !waiting.is_empty() {
-            self.check_next(&mut waiting, &mut tally);
+            self.check_next(&mut waiting, &mut tally)?;
         }
         Ok(tally)
     }
@@ -229,55 +233,36 @@ impl<'a> Exhaust<'a> {
         }
         self.shadows.prepare(device, queue).map_err(|error| error.to_string())?;
 
-        let buffer = self.free.pop().unwrap_or_else(|| {
+        let layout = FOUND.map(|kind| self.shadows.buffers(kind).map(|part| part.size()).collect::<Vec<_>>());
+        let size = layout.iter().flatten().sum::<u64>().max(4);
+        let buffer = self.free.pop().filter(|free| free.size() >= size).unwrap_or_else(|| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("found"),
-                size: self.layout()[2].end.max(4),
+                size,
                 usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
                 mapped_at_creation: false,
             })
         });
         let mut encoder = device.create_command_encoder(&Default::default());
         self.shadows.encode(&mut encoder, &mut Untimed);
-        for (kind, range) in FOUND.into_iter().zip(self.layout()) {
-            let mut begin = range.start;
-            for source in self.shadows.buffers(kind) {
-                encoder.copy_buffer_to_buffer(source.buffer(), source.offset(), &buffer, begin, source.size());
-                begin += source.size();
-            }
+        let mut begin = 0;
+        for source in FOUND.into_iter().flat_map(|kind| self.shadows.buffers(kind)) {
+            encoder.copy_buffer_to_buffer(source.buffer(), source.offset(), &buffer, begin, source.size());
+            begin += source.size();
         }
-        Ok(Waiting { light, buffer, submission: queue.submit([encoder.finish()]) })
+        Ok(Waiting { light, buffer, layout, submission: queue.submit([encoder.finish()]) })
     }
 
-    /// Where each of [`FOUND`] lies in what comes back, page after page.
-    fn layout(&self) -> [Range<u64>; 3] {
-        let mut end = 0;
-        FOUND.map(|kind| {
-            let begin = end;
-            end += self.shadows.buffers(kind).map(|part| part.size()).sum::<u64>();
-            begin..end
-        })
-    }
-
-    fn check_next(&mut self, waiting: &mut VecDeque<Waiting>, tally: &mut Tally) {
-        let Some(Waiting { light, buffer, submission }) = waiting.pop_front() else { return };
-        let found = self.gpu.map_after(&buffer, submission, |bytes| self.found(bytes));
+    /// Compares what the next frame found; one whose lists were too short runs again behind the others.
+    fn check_next(&mut self, waiting: &mut VecDeque<Waiting>, tally: &mut Tally) -> Result<(), String> {
+        let Some(Waiting { light, buffer, layout, submission }) = waiting.pop_front() else { return Ok(()) };
+        let found = self.gpu.map_after(&buffer, submission, |bytes| Found::read(bytes, &layout));
         self.free.push(buffer);
-        tally.add(self.compare(&light, &found));
-    }
-
-    fn found(&self, bytes: &[u8]) -> Found {
-        let [counters, lit, silhouettes] = self.layout().map(|range| &bytes[range.start as usize..range.end as usize]);
-        let pages: Vec<Counters> = bytemuck::pod_collect_to_vec(counters);
-        let mut lists = silhouettes;
-        let mut silhouettes = Vec::new();
-        for (counters, buffer) in pages.iter().zip(self.shadows.buffers(BufferKind::Silhouettes)) {
-            let (list, others) = lists.split_at(buffer.size() as usize);
-            let list: Vec<SilhouetteEdge> = bytemuck::pod_collect_to_vec(list);
-            silhouettes.extend(&list[..counters.silhouette_edges as usize]);
-            lists = others;
+        match found {
+            Some(found) => tally.add(self.compare(&light, &found)),
+            None => waiting.push_back(self.submit(light)?),
         }
-        Found { counters: pages.into_iter().sum(), lit: bytemuck::pod_collect_to_vec(lit), silhouettes }
+        Ok(())
     }
 
     /// Counts where a frame's findings differ from exact arithmetic.
@@ -308,6 +293,24 @@ impl<'a> Exhaust<'a> {
             }
         }
         tally
+    }
+}
+
+impl Found {
+    /// What a frame left; `None` where its lists were too short.
+    fn read(bytes: &[u8], layout: &Layout) -> Option<Self> {
+        let [counters, lit, _] = layout.each_ref().map(|pages| pages.iter().sum::<u64>() as usize);
+        let (counters, bytes) = bytes.split_at(counters);
+        let (lit, mut lists) = bytes.split_at(lit);
+        let pages: Vec<Counters> = bytemuck::pod_collect_to_vec(counters);
+        let mut silhouettes = Vec::new();
+        for (counters, size) in pages.iter().zip(&layout[2]) {
+            let (list, others) = lists.split_at(*size as usize);
+            let list: Vec<SilhouetteEdge> = bytemuck::pod_collect_to_vec(list);
+            silhouettes.extend(list.get(..counters.silhouette_edges as usize)?);
+            lists = others;
+        }
+        Some(Self { counters: pages.into_iter().sum(), lit: bytemuck::pod_collect_to_vec(lit), silhouettes })
     }
 }
 

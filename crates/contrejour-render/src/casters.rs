@@ -16,6 +16,7 @@ use glam::DMat4;
 
 use crate::animated::DeformingCaster;
 use crate::caster_meshes::{CasterMesh, CasterMeshError, CasterMeshes};
+use crate::silhouettes::had_room;
 use crate::{Gpu, LocalSpace};
 
 /// What casts in a scene. Each mesh is made once, however often it stands there.
@@ -234,11 +235,6 @@ impl CastShadows {
 
     /// Waits for the submitted frames; returns whether the last one had room for everything.
     pub fn wait_until_done(&mut self, gpu: &Gpu) -> Result<bool, CountersError> {
-        match self.shadows.wait_for_counters(&gpu.device) {
-            Ok(_) => Ok(self.shadows.is_complete()),
-            // Frames without silhouettes count nothing and miss nothing.
-            Err(CountersError::NoFrame) => Ok(true),
-            Err(error) => Err(error),
-        }
+        had_room(gpu, &mut self.shadows)
     }
 }

@@ -61,7 +61,7 @@ pub use renderer::Renderer;
 pub use save::{SaveError, check_folder, save_file};
 pub use scene_lights::MoveError;
 pub use scene_meshes::{MeshTooLarge, UploadMeshesError};
-pub use silhouettes::read_silhouettes;
+pub use silhouettes::{find_silhouettes, had_room};
 pub use stage_timer::{PassTime, StageTimer, TimedStage};
 pub use targets::SizeTooLarge;
 pub use tone_map::tone_mapped;

@@ -5,7 +5,7 @@ use contrejour_layout::SilhouetteEdge;
 use contrejour_plan::{BufferKind, DepthPrecision, LightKind, Stage, frame_views};
 use image::RgbaImage;
 
-use crate::error::DrawError;
+use crate::error::{DrawError, MAX_REPEATS};
 use crate::map_texels::read_texels;
 use crate::map_views::{MapView, alpha_view, depth_view};
 use crate::readback::{ReadError, copied_buffer, read_picture};
@@ -171,6 +171,16 @@ impl Renderer {
     /// Silhouettes of all views of all lights, one list for each view of a light that looks for them. The lists are filled
     /// for one view after the other, so they are copied as they are made.
     fn silhouettes(&mut self) -> Result<Vec<(LightHandle, Vec<SilhouetteEdge>)>, DrawError> {
+        for _ in 0..MAX_REPEATS {
+            let silhouettes = self.silhouettes_that_fit()?;
+            if self.cast.wait_until_done(&self.gpu)? {
+                return Ok(silhouettes);
+            }
+        }
+        Err(DrawError::Incomplete)
+    }
+
+    fn silhouettes_that_fit(&mut self) -> Result<Vec<(LightHandle, Vec<SilhouetteEdge>)>, DrawError> {
         let eye_local = self.eye_local();
         let Self { gpu, cast, .. } = self;
         cast.shadows.redraw();

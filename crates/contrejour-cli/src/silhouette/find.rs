@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use contrejour_gpu::{CasterInput, Positions, ShadowOptions, Shadows, Untimed};
+use contrejour_gpu::{CasterInput, Positions, ShadowOptions, Shadows};
 use contrejour_layout::{BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_SIZE, Caster, SilhouetteEdge, WorkItem};
 use contrejour_mirror::{FrameInputs, run_frame};
 use contrejour_plan::{Light, NearOne, Outputs, ShadowSettings, View, ViewCounts, caster_light, object_light, views};
-use contrejour_render::{Gpu, read_silhouettes};
+use contrejour_render::{Gpu, find_silhouettes};
 
 use super::found::PlacedMesh;
 use crate::failure::Failure;
@@ -26,12 +26,8 @@ pub fn on_gpu(placed: &[PlacedMesh<'_>], light: &Light) -> Result<Vec<Silhouette
     }
     let options = ShadowOptions { outputs: Outputs::Silhouettes, ..ShadowOptions::default() };
     shadows.add_light(light, &options)?;
-    shadows.prepare(&gpu.device, &gpu.queue)?;
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    shadows.encode(&mut encoder, &mut Untimed);
-    gpu.queue.submit([encoder.finish()]);
     warn_of_singular_casters(placed, &views(light)?[0]);
-    Ok(read_silhouettes(&gpu, &shadows)?)
+    Ok(find_silhouettes(&gpu, &mut shadows)?)
 }
 
 /// Runs the twins of the compute stages, mesh by mesh.

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use contrejour_gpu::Untimed;
-use contrejour_render::{Gpu, StageTimer};
+use contrejour_render::{Gpu, StageTimer, had_room};
 use cpu_time::ThreadTime;
 
 use super::error::StressError;
@@ -14,7 +14,7 @@ use super::verify::Verifier;
 use super::world::{Placed, World};
 
 /// Frames after which a frame must have had room for everything.
-const REPEATS_MAX: usize = 8;
+pub(super) const REPEATS_MAX: usize = 8;
 
 /// Of so many frames one is verified.
 const VERIFIED_OF: u64 = 16;
@@ -115,10 +115,7 @@ pub(super) fn settle(gpu: &Gpu, placed: &mut Placed) -> Result<(), StressError> 
         shadows.encode(&mut encoder, &mut Untimed);
         gpu.queue.submit([encoder.finish()]);
         gpu.wait(None)?;
-        if shadows.buffer(contrejour_plan::BufferKind::Counters).is_some() {
-            shadows.wait_for_counters(&gpu.device)?;
-        }
-        if shadows.is_complete() {
+        if had_room(gpu, shadows)? {
             return Ok(());
         }
     }

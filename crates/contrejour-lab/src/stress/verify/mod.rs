@@ -9,11 +9,12 @@ use contrejour_gpu::{LightHandle, Positions, ShadowLightError, Untimed};
 use contrejour_layout::{CasterLight, Counters, SilhouetteEdge};
 use contrejour_oracle::{ManyLights, OracleEdge, OracleTopology};
 use contrejour_plan::{BufferKind, NearOne, ObjectBox, Stage, View, caster_light, frame_views};
-use contrejour_render::{Gpu, copied_buffer, read_buffer};
+use contrejour_render::{Gpu, copied_buffer, had_room, read_buffer};
 use glam::{DMat4, DVec3};
 
 use super::error::StressError;
 use super::pictures::Pictures;
+use super::run::REPEATS_MAX;
 use super::world::{Placed, World};
 
 /// Differences so far.
@@ -223,8 +224,18 @@ fn shrunk([min, max]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
     [shrunk(min, max), shrunk(max, min)]
 }
 
-/// Draws the frame of a scene again, and keeps what each view leaves.
+/// Draws the frame of a scene again, until all lists have room, and keeps what each view leaves.
 fn draw_again(gpu: &Gpu, placed: &mut Placed) -> Result<Vec<Left>, StressError> {
+    for _ in 0..REPEATS_MAX {
+        let left = draw_once_more(gpu, placed)?;
+        if had_room(gpu, &mut placed.shadows)? {
+            return Ok(left);
+        }
+    }
+    Err(StressError::Incomplete(REPEATS_MAX))
+}
+
+fn draw_once_more(gpu: &Gpu, placed: &mut Placed) -> Result<Vec<Left>, StressError> {
     let Placed { shadows, deformer, .. } = placed;
     shadows.redraw();
     shadows.prepare(&gpu.device, &gpu.queue)?;
