@@ -235,9 +235,11 @@ impl Shadows {
     }
 
     /// A buffer of the frame, where a plan lists it: the silhouette list and its counters stay here for stages of the
-    /// caller's. Views that are tested together have [parts of their own](contrejour_plan::Seating) of a list, and the next
-    /// ones fill them anew: this is the part of the last view of the last light that was recorded, as it can be bound; of lists
-    /// that views have test by test, such as lit bits, it is all of them ([`FilledView`](crate::FilledView) knows the seat). A
+    /// caller's. Counters may count more than a list has room for, until it [grew](Self::is_complete).
+    ///
+    /// Views that are tested together have [parts of their own](contrejour_plan::Seating) of a list, and the next ones fill
+    /// them anew: this is the part of the last view of the last light that was recorded, as it can be bound; of lists that
+    /// views have test by test, such as lit bits, it is all of them ([`FilledView`](crate::FilledView) knows the seat). A
     /// later [`prepare`](Self::prepare) may replace the buffer. Where a scene fills several pages this is the first one's:
     /// [`buffers`](Self::buffers) are all.
     pub fn buffer(&self, kind: BufferKind) -> Option<wgpu::BufferSlice<'_>> {
@@ -263,8 +265,8 @@ impl Shadows {
         self.stats
     }
 
-    /// Whether the latest counted frame of each light had room for all its quads and corners. While it had not, prepare and
-    /// encode once more.
+    /// Whether the latest counted frame of each light had room for all its silhouette edges, quads and corners. While it
+    /// had not, prepare and encode once more.
     pub fn is_complete(&self) -> bool {
         !self.is_stale && self.lights.iter().all(|(_, light)| light.is_complete())
     }

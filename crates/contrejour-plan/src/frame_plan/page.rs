@@ -28,9 +28,10 @@ pub struct PagedCaster {
 }
 
 impl PagePlan {
-    /// Room for quads and corners.
+    /// Room for silhouette edges, quads and corners.
     pub fn capacity(&self) -> Capacity {
-        Capacity { quads: self.counts.quads, corners: self.counts.corners }
+        let ViewCounts { silhouettes, quads, corners, .. } = self.counts;
+        Capacity { silhouettes, quads, corners }
     }
 }
 

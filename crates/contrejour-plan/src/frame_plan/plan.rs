@@ -2,8 +2,8 @@
 
 use super::decide::{LeftOutList, casting, lacks_planes, note_masked, passes, smoothies_wanted, stages};
 use super::page::{Page, pages};
-use super::room::with_room;
-use super::seats::{seats, wanted_seats};
+use super::room::{kept, with_room};
+use super::seats::{most_items_with, seats, wanted_seats};
 use super::size_buffers::{PageSizes, SceneSizes};
 use super::{
     BufferKind, BufferPlan, Capacity, DeviceFacts, LeftOut, Omitted, Outputs, PagePlan, Pass, PipelinePlan, PlanError,
@@ -116,14 +116,18 @@ impl FramePlan {
         let kinds: Vec<_> = BufferKind::ALL.into_iter().filter(is_needed).collect();
         let pages = pages(scene, &kinds, device, PageSizes::new(scene, &kinds, input.capacity, lacks_planes));
         let mut buffers = buffers(&kinds, &SceneSizes::new(scene, input.views.len()), &pages, device)?;
-        if pages.len() == 1 && input.made.iter().all(|made| made.page == 0) {
-            for buffer in buffers.iter_mut().filter(|buffer| !buffer.kind.is_of_light()) {
-                let is_paged = buffer.kind.is_paged();
-                let expected = if is_paged { pages[0].sizes.expected_items(buffer.kind) } else { buffer.items };
-                *buffer = with_room(*buffer, expected, input.made, device);
-            }
+        let stays = |buffer: &BufferPlan| !buffer.kind.is_of_light();
+        let have_one_page = pages.len() == 1 && input.made.iter().all(|made| made.page == 0);
+        let made = if have_one_page { input.made } else { &[] };
+        let kept_buffers: Vec<_> =
+            buffers.iter().filter(|buffer| stays(buffer)).map(|buffer| kept(*buffer, made)).collect();
+        let seats = seats(input, &kept_buffers);
+        for buffer in buffers.iter_mut().filter(|buffer| stays(buffer)) {
+            let is_paged = buffer.kind.is_paged();
+            let expected = if is_paged { pages[buffer.page].sizes.expected_items(buffer.kind) } else { buffer.items };
+            let most = most_items_with(seats, &kept_buffers, buffer, device);
+            *buffer = with_room(*buffer, expected, made, most);
         }
-        let seats = seats(input, &buffers);
         if stages.contains(&Stage::ClassifyFaces) && seats < wanted_seats(input) {
             left_out.add(Omitted::TestsTogether, Reason::ListsAreTooLarge);
         }

@@ -1,23 +1,28 @@
 //! Room that buffers keep and gain while a scene changes.
 
-use super::size_buffers::most_items;
-use super::{BufferPlan, DeviceFacts};
+use super::BufferPlan;
 
 /// A buffer for what is needed, where earlier frames made some: one with room for it stays as it is, also where a smaller
-/// one would do, since what shrank mostly grows again. One without grows to half more than is needed, as far as the device
-/// allows, so that where things come one by one it grows seldom. What was not made, or holds nothing, is as large as needed;
-/// so is one that has room for what the scene is `expected` to need: a frame counted more, and that is no reason to expect
-/// still more.
-pub(super) fn with_room(needed: BufferPlan, expected: u64, made: &[BufferPlan], device: &DeviceFacts) -> BufferPlan {
+/// one would do, since what shrank mostly grows again.
+pub(super) fn kept(needed: BufferPlan, made: &[BufferPlan]) -> BufferPlan {
+    BufferPlan::new(needed.kind, needed.page, needed.items.max(items_made(&needed, made)))
+}
+
+/// The same, where one without room grows to half more than is needed, but not beyond `most`, so that where things come one
+/// by one it grows seldom. What was not made, or holds nothing, is as large as needed; so is one that has room for what the
+/// scene is `expected` to need: a frame counted more, and that is no reason to expect still more.
+pub(super) fn with_room(needed: BufferPlan, expected: u64, made: &[BufferPlan], most: u64) -> BufferPlan {
     let BufferPlan { kind, page, items, .. } = needed;
-    let had = made.iter().find(|made| (made.kind, made.page) == (kind, page)).map_or(0, |made| made.items);
-    let grown = match had {
-        0 => items,
-        _ if items <= had => had,
-        _ if expected <= had => items,
-        _ => (items + items / 2).min(most_items(kind, device)).max(items),
-    };
-    BufferPlan::new(kind, page, grown)
+    let had = items_made(&needed, made);
+    if had == 0 || items <= had || expected <= had {
+        return kept(needed, made);
+    }
+    BufferPlan::new(kind, page, (items + items / 2).min(most).max(items))
+}
+
+fn items_made(needed: &BufferPlan, made: &[BufferPlan]) -> u64 {
+    let is_it = |made: &&BufferPlan| (made.kind, made.page) == (needed.kind, needed.page);
+    made.iter().find(is_it).map_or(0, |made| made.items)
 }
 
 #[cfg(test)]
@@ -28,8 +33,7 @@ mod tests {
     fn grown(needed: u64, had: Option<u64>) -> u64 {
         let plan = |items| BufferPlan::new(BufferKind::Lit, 0, items);
         let made: Vec<_> = had.map(plan).into_iter().collect();
-        let device = DeviceFacts { max_storage_buffer_binding_size: 4000, ..DeviceFacts::default() };
-        with_room(plan(needed), needed, &made, &device).items
+        with_room(plan(needed), needed, &made, 1000).items
     }
 
     #[test]
@@ -45,7 +49,7 @@ mod tests {
     #[test]
     fn what_was_counted_fits_exactly() {
         let plan = |items| BufferPlan::new(BufferKind::Quads, 0, items);
-        let items = |needed, expected| with_room(plan(needed), expected, &[plan(600)], &DeviceFacts::default()).items;
+        let items = |needed, expected| with_room(plan(needed), expected, &[plan(600)], u64::MAX).items;
         assert_eq!((items(750, 600), items(750, 601)), (750, 1125));
     }
 

@@ -52,7 +52,7 @@ pub(super) struct PageSizes {
     /// No stage tests faces.
     lacks_tests: bool,
     outline_edges: u64,
-    /// Room for quads and corners that earlier frames are known to need.
+    /// Room in lists that earlier frames are known to need.
     floor: Capacity,
 }
 
@@ -162,7 +162,7 @@ impl PageSizes {
             BufferKind::EdgeTests => self.edge_blocks,
             BufferKind::RecheckWords => self.face_blocks * u64::from(LIT_WORDS_PER_BLOCK),
             BufferKind::Undecided => self.faces,
-            BufferKind::Silhouettes => self.edges,
+            BufferKind::Silhouettes => capacity.silhouettes.into(),
             BufferKind::Quads => capacity.quads.into(),
             BufferKind::Corners => capacity.corners.into(),
             BufferKind::ItemArgs | BufferKind::RefineArgs | BufferKind::ExtrudeArgs => INDIRECT_DISPATCHES,
