@@ -1,5 +1,7 @@
 //! `contrejour inspect`: the topology report of each mesh of a file, and its textures, cameras, lights and animations.
 
+mod stream;
+
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -13,6 +15,7 @@ use serde::Serialize;
 use crate::args::InspectArguments;
 use crate::failure::Failure;
 use crate::output::print;
+use stream::StreamReport;
 
 #[derive(Serialize)]
 struct FileReport {
@@ -33,6 +36,7 @@ struct MeshReport {
     /// Triangles that alpha masks cut: they count in the report, and have no silhouette when they cast.
     masked_triangles: u64,
     report: TopologyReport,
+    tam_stream: StreamReport,
 }
 
 #[derive(Serialize)]
@@ -123,6 +127,7 @@ fn textures(meshes: &[TriangleMesh]) -> Vec<TextureReport> {
 fn report(mesh: &TriangleMesh) -> Result<MeshReport, Failure> {
     let topology = TopologyAwareMesh::build(&mesh.positions, &mesh.triangles, &BuildOptions::default())?;
     Ok(MeshReport {
+        tam_stream: StreamReport::new(&topology),
         name: mesh.name.clone(),
         unlisted_vertices: mesh.unlisted_vertices,
         masked_triangles: mesh.cut_triangle_count() as u64,
@@ -138,6 +143,7 @@ fn text(file: &FileReport) -> String {
         if mesh.unlisted_vertices > 0 {
             text += &format!("{:<22}{:>10}\n", "unused in the file", mesh.unlisted_vertices);
         }
+        text += &mesh.tam_stream.text();
         if mesh.masked_triangles > 0 {
             text += &format!("{:<22}{:>10}  without silhouettes\n", "cut by alpha masks", mesh.masked_triangles);
         }

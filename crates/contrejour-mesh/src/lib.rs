@@ -7,6 +7,7 @@ mod normals;
 mod planes;
 mod read_file;
 mod rig;
+mod tam;
 mod texture;
 mod topology;
 mod triangle_mesh;
@@ -20,6 +21,7 @@ pub use rig::{
     AnimatedModel, Animation, DeformingMesh, DeformingMeshError, NodeTransform, PartPose, Pose, PoseError, Rig,
     RigNode, RigPart, Skin, UnknownAnimation,
 };
+pub use tam::{TamError, TamFace, TamForm, TamMemory, TamOptions, TamPrecision, TamStream};
 pub use texture::{EncodedImage, Texture, TextureFilter, TextureWrap};
 pub use topology::*;
 pub use triangle_mesh::*;

@@ -40,14 +40,17 @@ fn plan_tells() -> Outcome {
 fn inspect_tells() -> Outcome {
     let folder = Folder::with(&[("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 4 5\n")]);
     let text = folder.run("inspect open.obj").stdout()?;
-    expect_all(&text, &["open.obj", "faces", "border", "closed"])?;
+    expect_all(&text, &["open.obj", "faces", "border", "closed", "36 a face; 0.38 of no index, 0.39 of an index"])?;
     let json = folder.run("inspect open.obj --json").json()?;
     let report = &json["meshes"][0]["report"];
     let counts = (&report["faces"], &report["welded_vertices"], &report["border_edges"]["count"]);
-    if counts.0 == 2 && counts.1 == 1 && counts.2 == 4 && report["closed"] == false {
-        return Ok(());
+    if counts.0 != 2 || counts.1 != 1 || counts.2 != 4 || report["closed"] != false {
+        return Err(format!("faces, welded vertices, border edges: {counts:?}"));
     }
-    Err(format!("faces, welded vertices, border edges: {counts:?}"))
+    let stream = &json["meshes"][0]["tam_stream"];
+    let bytes = ["items", "half_items", "face_records", "half_face_records"].map(|form| stream[form]["bytes"].as_u64());
+    let expected = [504, 288, 144, 72].map(Some);
+    if bytes == expected { Ok(()) } else { Err(format!("bytes of the streams: {bytes:?}, not {expected:?}")) }
 }
 
 fn help_and_version_are_no_errors() -> Outcome {

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use crate::TopologyAwareMesh;
 use plane::stored_plane;
+pub(crate) use plane::unit_normal;
 
 /// The plane of each face: 16 bytes that say for any light whether it is lit, but for the lights next to the plane.
 #[derive(Clone, Debug, Default, PartialEq)]

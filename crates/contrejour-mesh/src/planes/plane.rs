@@ -1,5 +1,7 @@
 //! The plane of one face, as exact as `f32` holds it.
 
+use glam::DVec3;
+
 use super::expansion::Expansion;
 
 /// The two axes of each coordinate plane, by the axis across it.
@@ -16,8 +18,8 @@ const LARGEST: f64 = (1_u64 << 60) as f64;
 /// not be zero and yet below 2^-60 or above 2^60. A face without area has four zeros.
 pub(super) fn stored_plane(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> Option<[f32; 4]> {
     let [a, b, c] = [a, b, c].map(|corner| corner.map(f64::from));
-    let plane = rounded_plane(a, b, c).unwrap_or_else(|| exact_plane(a, b, c));
-    let largest = plane[..3].iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
+    let plane = plane(a, b, c);
+    let largest = largest_of(&plane[..3]);
     if largest == 0.0 {
         return Some([0.0; 4]);
     }
@@ -25,6 +27,23 @@ pub(super) fn stored_plane(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> Option<[f32
     let fits = |component: &f64| *component == 0.0 || (SMALLEST..=LARGEST).contains(&component.abs());
     // Rounding to f32 adds 2^-24 to the 2^-26 that components are off by.
     scaled.iter().all(fits).then(|| scaled.map(|component| component as f32))
+}
+
+/// The unit normal of the face `a`, `b`, `c`; zeros where it has no area.
+pub(crate) fn unit_normal(corners: [[f32; 3]; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(|corner| corner.map(f64::from));
+    let [x, y, z, _] = plane(a, b, c);
+    let largest = largest_of(&[x, y, z]);
+    if largest == 0.0 { DVec3::ZERO } else { (DVec3::new(x, y, z) * power_of_two_for(largest)).normalize() }
+}
+
+/// Its components are off by less than 2^-26 of themselves.
+fn plane(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> [f64; 4] {
+    rounded_plane(a, b, c).unwrap_or_else(|| exact_plane(a, b, c))
+}
+
+fn largest_of(components: &[f64]) -> f64 {
+    components.iter().fold(0.0, |largest, component| largest.max(component.abs()))
 }
 
 /// In plain arithmetic, where that loses so little that each component is off by less than 2^-26 of itself, and gives

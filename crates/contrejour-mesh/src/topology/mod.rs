@@ -84,6 +84,20 @@ impl TopologyAwareMesh {
         })
     }
 
+    /// Where the corners of a face are.
+    pub(crate) fn corners(&self, face: &Face) -> [[f32; 3]; 3] {
+        [face.a, face.b, face.c].map(|vertex| self.positions[vertex as usize])
+    }
+
+    /// The edge between two vertices, the lower first.
+    pub(crate) fn edge_between(&self, low_vertex: u32, high_vertex: u32) -> Option<usize> {
+        let (candidates, others) = self.edges.split_at(self.candidate_edge_count as usize);
+        let find = |edges: &[Edge]| {
+            edges.binary_search_by_key(&(low_vertex, high_vertex), |edge| (edge.low_vertex, edge.high_vertex)).ok()
+        };
+        find(candidates).or_else(|| Some(candidates.len() + find(others)?))
+    }
+
     /// The candidate edges of a vertex, by ascending edge.
     ///
     /// # Panics

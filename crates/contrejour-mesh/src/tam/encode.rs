@@ -1,0 +1,101 @@
+//! The bytes of a stream.
+
+use half::f16;
+use rayon::prelude::*;
+
+use super::{TamFace, TamStream};
+
+/// How the faces of a stream lie in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TamForm {
+    /// A vertex buffer of three items a face: each its own position, the corners of the face and the three normals; of
+    /// 16-bit floats three more fill 48 bytes. As Valient and Bujnak (2005) have it.
+    Items,
+    /// A storage buffer of one record a face: corners and normals. The vertex stage reads face `vertex_index / 3` and
+    /// takes corner `vertex_index % 3` of it, so what three items have in common is there once.
+    Faces,
+}
+
+/// The floats of a stream.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TamPrecision {
+    /// 32-bit floats.
+    Full,
+    /// 16-bit floats: corners are off by up to 2^-11 of themselves, normals by 2^-11 of their length, so faces that the
+    /// light grazes may count for the other side.
+    Half,
+}
+
+/// Why a stream has no such bytes.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TamError {
+    /// A coordinate is too large for 16-bit floats.
+    #[error(
+        "face {face} has a corner at {coordinate:e}, and 16-bit floats end at 65504: give a smaller scale or an origin amid \
+         the mesh"
+    )]
+    BeyondHalf {
+        /// The face in the mesh.
+        face: u32,
+        /// The coordinate as it is stored.
+        coordinate: f32,
+    },
+}
+
+/// Numbers in one item of a stream, without what fills it.
+const ITEM_NUMBERS: usize = 21;
+
+impl TamForm {
+    /// Bytes of one face.
+    pub const fn face_bytes(self, precision: TamPrecision) -> usize {
+        match (self, precision) {
+            (Self::Items, TamPrecision::Full) => 3 * 4 * ITEM_NUMBERS,
+            (Self::Items, TamPrecision::Half) => 3 * 48,
+            (Self::Faces, TamPrecision::Full) => 72,
+            (Self::Faces, TamPrecision::Half) => 36,
+        }
+    }
+}
+
+impl TamStream {
+    /// Its bytes, as a device reads them: little-endian.
+    ///
+    /// # Errors
+    ///
+    /// [`TamError`] where a coordinate is too large for 16-bit floats.
+    pub fn bytes(&self, form: TamForm, precision: TamPrecision) -> Result<Vec<u8>, TamError> {
+        if precision == TamPrecision::Half {
+            self.check_halves()?;
+        }
+        let numbers = self.faces.par_iter().flat_map_iter(|face| numbers(face, form, precision));
+        Ok(match precision {
+            TamPrecision::Full => bytemuck::cast_slice(&numbers.collect::<Vec<f32>>()).to_vec(),
+            TamPrecision::Half => bytemuck::cast_slice(&numbers.map(f16::from_f32).collect::<Vec<f16>>()).to_vec(),
+        })
+    }
+
+    fn check_halves(&self) -> Result<(), TamError> {
+        let too_large = |coordinate: &&f32| !f16::from_f32(**coordinate).is_finite();
+        let found = self.faces.par_iter().zip(&self.face_ids).find_map_first(|(face, &id)| {
+            let coordinate = face.corners.as_flattened().iter().find(too_large)?;
+            Some(TamError::BeyondHalf { face: id, coordinate: *coordinate })
+        });
+        found.map_or(Ok(()), Err)
+    }
+}
+
+fn numbers(face: &TamFace, form: TamForm, precision: TamPrecision) -> Vec<f32> {
+    let TamFace { corners, neighbour_normals } = face;
+    let shared = || corners.iter().chain(neighbour_normals).flatten().copied();
+    match form {
+        TamForm::Faces => shared().collect(),
+        TamForm::Items => {
+            let filling = match precision {
+                TamPrecision::Full => 0,
+                TamPrecision::Half => 48 / size_of::<f16>() - ITEM_NUMBERS,
+            };
+            let item = |own: &[f32; 3]| own.iter().copied().chain(shared()).chain(vec![0.0; filling]).collect();
+            corners.iter().flat_map(|own| -> Vec<f32> { item(own) }).collect()
+        }
+    }
+}

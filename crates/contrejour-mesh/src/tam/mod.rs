@@ -1,0 +1,101 @@
+//! Topology-aware vertex streams (Valient and Bujnak 2005): each face brings what a vertex stage needs to know of its
+//! neighbours, so that a face alone tells which of its edges are in the silhouette.
+
+mod encode;
+mod memory;
+mod neighbours;
+
+pub use encode::{TamError, TamForm, TamPrecision};
+pub use memory::TamMemory;
+
+use contrejour_layout::Face;
+use rayon::prelude::*;
+
+use crate::TopologyAwareMesh;
+use crate::planes::unit_normal;
+use neighbours::neighbour_normals;
+
+/// One face and the normals of the faces beside it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TamFace {
+    /// Its corners.
+    pub corners: [[f32; 3]; 3],
+    /// Across the edge from each corner to the next: the unit normal of the face there, as it is wound with this one.
+    ///
+    /// The edge is in the silhouette where the light is in front of one of the two faces alone. So an edge without a
+    /// face across has the negated normal of its own face: it always is. An edge that never is has zeros.
+    pub neighbour_normals: [[f32; 3]; 3],
+}
+
+/// How the positions of a stream are stored: less `origin`, times `scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TamOptions {
+    /// A point in object space; zeros by default.
+    pub origin: [f32; 3],
+    /// Positive, 1 by default. A power of two loses no digits; 16-bit floats end at 65 504.
+    pub scale: f32,
+}
+
+impl Default for TamOptions {
+    fn default() -> Self {
+        Self { origin: [0.0; 3], scale: 1.0 }
+    }
+}
+
+/// The faces of a mesh that can have silhouette edges, each with the normals of its neighbours.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TamStream {
+    /// Those faces, in the order of the mesh.
+    pub faces: Vec<TamFace>,
+    /// For each of them its id in the mesh.
+    pub face_ids: Vec<u32>,
+    /// Faces that were left out since none of their edges can ever be in a silhouette. Those of a mesh that deforms stay.
+    pub never_silhouette_faces: u32,
+    /// Faces that were left out since they have no area, or name a vertex twice. Their neighbours know each other.
+    pub faces_without_area: u32,
+    /// Edges that may be drawn though they are not in the silhouette.
+    ///
+    /// The faces of an edge of three and more are asked in pairs, of two that run along it in opposite ways where there
+    /// are such. The answers of two pairs may cancel, which a vertex stage can't know. So it is beside a face without
+    /// area that has no sign to take: such an edge is drawn whatever the light.
+    pub overdrawn_edges: u32,
+}
+
+impl TamStream {
+    /// The stream of a mesh, worked out on every thread of the current rayon pool.
+    pub fn new(mesh: &TopologyAwareMesh, options: &TamOptions) -> Self {
+        let has_area = has_area(mesh);
+        let stored = |position: [f32; 3]| -> [f32; 3] {
+            std::array::from_fn(|axis| (position[axis] - options.origin[axis]) * options.scale)
+        };
+        let normals: Vec<_> = mesh.faces.par_iter().map(|face| unit_normal(mesh.corners(face))).collect();
+        let (face_ids, faces): (Vec<u32>, Vec<TamFace>) = (0..mesh.faces.len() as u32)
+            .into_par_iter()
+            .filter(|&face_id| has_area[face_id as usize])
+            .filter_map(|face_id| {
+                let neighbour_normals = neighbour_normals(mesh, face_id, &normals)?;
+                let corners = mesh.corners(&mesh.faces[face_id as usize]).map(stored);
+                Some((face_id, TamFace { corners, neighbour_normals }))
+            })
+            .unzip();
+        let with_area = has_area.iter().filter(|has_area| **has_area).count();
+        Self {
+            never_silhouette_faces: (with_area - faces.len()) as u32,
+            faces_without_area: (mesh.faces.len() - with_area) as u32,
+            overdrawn_edges: neighbours::overdrawn_edges(mesh),
+            faces,
+            face_ids,
+        }
+    }
+}
+
+/// Which faces have an area.
+fn has_area(mesh: &TopologyAwareMesh) -> Vec<bool> {
+    let has_three_vertices = |face: &Face| face.a != face.b && face.b != face.c && face.c != face.a;
+    let mut has_area: Vec<bool> = mesh.faces.par_iter().map(has_three_vertices).collect();
+    mesh.partners.iter().for_each(|partner| has_area[partner.face as usize] = false);
+    has_area
+}
+
+#[cfg(test)]
+mod tests;
