@@ -108,7 +108,7 @@ pub enum Reason {
     NothingIsSkinned,
     /// All casters bring their own positions.
     PositionsAreTheCallers,
-    /// The lists of so many views would take more than 160 MiB, or one of them more than the device allows.
+    /// The lists of so many views would take more than 192 MiB, or one of them more than the device allows.
     ListsAreTooLarge,
     /// Neither the light nor anything within its reach changed: its maps stand.
     NothingChanged,
@@ -168,7 +168,7 @@ impl fmt::Display for Reason {
             Self::NothingIsSkinned => "positions come as they are drawn",
             Self::NothingChanged => "neither the light nor anything within its reach changed: its maps stand",
             Self::ListsAreTooLarge => {
-                "their lists would take more than 160 MiB together, or one of them more than the device allows"
+                "their lists would take more than 192 MiB together, or one of them more than the device allows"
             }
             Self::PositionsAreTheCallers => "all positions are the caller's: faces are tested by them",
         })
