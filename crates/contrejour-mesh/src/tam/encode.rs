@@ -1,5 +1,7 @@
 //! The bytes of a stream.
 
+use std::iter::repeat_n;
+
 use half::f16;
 use rayon::prelude::*;
 
@@ -45,12 +47,15 @@ pub enum TamError {
 /// Numbers in one item of a stream, without what fills it.
 const ITEM_NUMBERS: usize = 21;
 
+/// Six times four 16-bit floats.
+const HALF_ITEM_BYTES: usize = 48;
+
 impl TamForm {
     /// Bytes of one face.
     pub const fn face_bytes(self, precision: TamPrecision) -> usize {
         match (self, precision) {
             (Self::Items, TamPrecision::Full) => 3 * 4 * ITEM_NUMBERS,
-            (Self::Items, TamPrecision::Half) => 3 * 48,
+            (Self::Items, TamPrecision::Half) => 3 * HALF_ITEM_BYTES,
             (Self::Faces, TamPrecision::Full) => 72,
             (Self::Faces, TamPrecision::Half) => 36,
         }
@@ -84,18 +89,14 @@ impl TamStream {
     }
 }
 
-fn numbers(face: &TamFace, form: TamForm, precision: TamPrecision) -> Vec<f32> {
-    let TamFace { corners, neighbour_normals } = face;
-    let shared = || corners.iter().chain(neighbour_normals).flatten().copied();
-    match form {
-        TamForm::Faces => shared().collect(),
-        TamForm::Items => {
-            let filling = match precision {
-                TamPrecision::Full => 0,
-                TamPrecision::Half => 48 / size_of::<f16>() - ITEM_NUMBERS,
-            };
-            let item = |own: &[f32; 3]| own.iter().copied().chain(shared()).chain(vec![0.0; filling]).collect();
-            corners.iter().flat_map(|own| -> Vec<f32> { item(own) }).collect()
-        }
-    }
+/// The numbers of a face, in their order.
+fn numbers(face: &TamFace, form: TamForm, precision: TamPrecision) -> impl Iterator<Item = f32> {
+    let own = move |item: usize| (form == TamForm::Items).then(|| face.corners[item]).into_iter().flatten();
+    let shared = || face.corners.iter().chain(&face.neighbour_normals).flatten().copied();
+    let (records, filling) = match (form, precision) {
+        (TamForm::Items, TamPrecision::Full) => (3, 0),
+        (TamForm::Items, TamPrecision::Half) => (3, HALF_ITEM_BYTES / size_of::<f16>() - ITEM_NUMBERS),
+        (TamForm::Faces, _) => (1, 0),
+    };
+    (0..records).flat_map(move |item| own(item).chain(shared()).chain(repeat_n(0.0, filling)))
 }
