@@ -33,7 +33,7 @@ pub fn find_silhouettes(gpu: &Gpu, shadows: &mut Shadows) -> Result<Vec<Silhouet
 ///
 /// # Errors
 ///
-/// The device was lost.
+/// The device was lost, or a frame was encoded and not submitted.
 pub fn had_room(gpu: &Gpu, shadows: &mut Shadows) -> Result<bool, CountersError> {
     match shadows.wait_for_counters(&gpu.device) {
         Ok(_) => Ok(shadows.is_complete()),

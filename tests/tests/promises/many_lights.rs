@@ -297,6 +297,6 @@ fn commands_do_not_follow_the_casters(gpu: &Gpu) -> Outcome {
         let stats = crowd.shadows.stats();
         Ok::<_, String>([u64::from(stats.dispatches_recorded), stats.draws_recorded.into(), stats.upload_bytes])
     };
-    let (few, many) = (recorded(1)?, recorded(200)?);
-    if few == many && few[0] > 50 { Ok(()) } else { Err(format!("1 caster: {few:?}, 200 casters: {many:?}")) }
+    let (few, many) = (recorded(1)?, recorded(256)?);
+    if few == many && few[0] > 50 { Ok(()) } else { Err(format!("1 caster: {few:?}, 256 casters: {many:?}")) }
 }

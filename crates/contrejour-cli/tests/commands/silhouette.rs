@@ -30,6 +30,18 @@ const LIGHTS: [&str; 8] = [
     "--direction=-1e-3,0,0",
 ];
 
+/// So many separate tetrahedra, which have more silhouette edges than a list for a mesh of as many faces begins with.
+fn tetrahedra(count: u32) -> String {
+    let tetrahedron = |index: u32| {
+        let [x, y] = [index % 50, index / 50].map(f64::from);
+        let [a, b, c, d] = [1, 2, 3, 4].map(|corner| 4 * index + corner);
+        let (right, back) = (x + 0.5, y + 0.5);
+        let corners = format!("v {x} {y} 0\nv {right} {y} 0\nv {x} {back} 0\nv {x} {y} 0.5\n");
+        corners + &format!("f {a} {c} {b}\nf {a} {b} {d}\nf {a} {d} {c}\nf {b} {c} {d}\n")
+    };
+    (0..count).map(tetrahedron).collect()
+}
+
 pub fn trials() -> Vec<Trial> {
     vec![
         cpu_trial("silhouette::a_face_has_its_three_edges", a_face_has_its_three_edges),
@@ -55,11 +67,11 @@ fn a_face_has_its_three_edges() -> Outcome {
 }
 
 fn gpu_and_cpu_print_the_same() -> Outcome {
-    let folder = Folder::with(&[("face.obj", FACE), ("sheets.obj", SHEETS)]);
+    let folder = Folder::with(&[("face.obj", FACE), ("sheets.obj", SHEETS), ("many.obj", &tetrahedra(2000))]);
     for mesh in ["knot.obj", "elephant.obj"] {
         fs::copy(asset(&format!("meshes/{mesh}")), folder.path(mesh)).map_err(|error| format!("{mesh}: {error}"))?;
     }
-    for mesh in ["face.obj", "sheets.obj", "knot.obj", "elephant.obj"] {
+    for mesh in ["face.obj", "sheets.obj", "knot.obj", "elephant.obj", "many.obj"] {
         let mut seen = Vec::new();
         for light in LIGHTS {
             let on = |who: &str| folder.run(&format!("silhouette {mesh} {light} --on {who}")).stdout();

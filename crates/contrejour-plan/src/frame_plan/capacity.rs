@@ -71,7 +71,11 @@ fn in_proportion(found: u64, (all, fit): (u64, u32)) -> u64 {
 }
 
 fn grown(capacity: u32, needed: u64) -> u32 {
-    if needed <= capacity.into() { capacity } else { saturating_u32(round_up(needed + needed.div_ceil(4))) }
+    if needed <= capacity.into() {
+        capacity
+    } else {
+        saturating_u32(round_up(needed.saturating_add(needed.div_ceil(4))))
+    }
 }
 
 /// A mesh of f faces has about 0.7 f^0.8 silhouette edges between two faces (McGuire 2004, "Observations on silhouette
