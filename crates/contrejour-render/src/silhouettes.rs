@@ -17,6 +17,8 @@ use crate::readback::{ReadError, read_buffer};
 /// [`DrawError`] when the device does not allow the frame or fails.
 pub fn find_silhouettes(gpu: &Gpu, shadows: &mut Shadows) -> Result<Vec<SilhouetteEdge>, DrawError> {
     for _ in 0..MAX_REPEATS {
+        // Else only lights whose lists were too short would run again, and the last view would be one of theirs.
+        shadows.redraw();
         shadows.prepare(&gpu.device, &gpu.queue).map_err(PrepareShadowsError::from)?;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         shadows.encode(&mut encoder, &mut Untimed);

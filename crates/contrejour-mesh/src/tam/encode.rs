@@ -23,8 +23,8 @@ pub enum TamForm {
 pub enum TamPrecision {
     /// 32-bit floats.
     Full,
-    /// 16-bit floats: corners are off by up to 2^-11 of themselves, normals by 2^-11 of their length, so faces that the
-    /// light grazes may count for the other side.
+    /// 16-bit floats: coordinates are off by up to 2^-11 of themselves, or 2^-25 where that is more, and so are the
+    /// components of normals. So faces that the light grazes may count for the other side.
     Half,
 }
 

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::TopologyAwareMesh;
 use crate::planes::unit_normal;
-use neighbours::neighbour_normals;
+use neighbours::{Pairs, neighbour_normals};
 
 /// One face and the normals of the faces beside it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,7 +23,8 @@ pub struct TamFace {
     /// Across the edge from each corner to the next: the unit normal of the face there, as it is wound with this one.
     ///
     /// The edge is in the silhouette where the light is in front of one of the two faces alone. So an edge without a
-    /// face across has the negated normal of its own face: it always is. An edge that never is has zeros.
+    /// face across has the negated normal of its own face: it always is, but for a light in the plane of the face, which
+    /// it sees as a line. An edge that never is in the silhouette has zeros.
     pub neighbour_normals: [[f32; 3]; 3],
 }
 
@@ -32,7 +33,8 @@ pub struct TamFace {
 pub struct TamOptions {
     /// A point in object space; zeros by default.
     pub origin: [f32; 3],
-    /// Positive, 1 by default. A power of two loses no digits; 16-bit floats end at 65 504.
+    /// Positive, 1 by default. A power of two that keeps all coordinates normal loses no digits; 16-bit floats end at
+    /// 65 504 and lose digits below 2^-14.
     pub scale: f32,
 }
 
@@ -56,8 +58,8 @@ pub struct TamStream {
     /// Edges that may be drawn though they are not in the silhouette.
     ///
     /// The faces of an edge of three and more are asked in pairs, of two that run along it in opposite ways where there
-    /// are such. The answers of two pairs may cancel, which a vertex stage can't know. So it is beside a face without
-    /// area that has no sign to take: such an edge is drawn whatever the light.
+    /// are such. The answers of two pairs may cancel, where their number is even, which a vertex stage can't know. So it
+    /// is beside a face without area that has no sign to take: such an edge is drawn whatever the light.
     pub overdrawn_edges: u32,
 }
 
@@ -68,12 +70,13 @@ impl TamStream {
         let stored = |position: [f32; 3]| -> [f32; 3] {
             std::array::from_fn(|axis| (position[axis] - options.origin[axis]) * options.scale)
         };
+        let pairs = Pairs::new(mesh);
         let normals: Vec<_> = mesh.faces.par_iter().map(|face| unit_normal(mesh.corners(face))).collect();
         let (face_ids, faces): (Vec<u32>, Vec<TamFace>) = (0..mesh.faces.len() as u32)
             .into_par_iter()
             .filter(|&face_id| has_area[face_id as usize])
             .filter_map(|face_id| {
-                let neighbour_normals = neighbour_normals(mesh, face_id, &normals)?;
+                let neighbour_normals = neighbour_normals(mesh, face_id, &normals, &pairs)?;
                 let corners = mesh.corners(&mesh.faces[face_id as usize]).map(stored);
                 Some((face_id, TamFace { corners, neighbour_normals }))
             })

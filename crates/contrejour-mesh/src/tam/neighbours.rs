@@ -1,12 +1,52 @@
 //! Which face is across an edge.
 
+use std::collections::HashMap;
+
 use contrejour_layout::{INCIDENCE_ALONG, UNLIT_FACE, incidence};
 use glam::DVec3;
 
 use crate::{TopologyAwareMesh, incidence_words};
 
+/// Which words of an edge's are asked together, where it has more than two.
+pub(super) struct Pairs(HashMap<(usize, u32), u32>);
+
+impl Pairs {
+    pub fn new(mesh: &TopologyAwareMesh) -> Self {
+        let candidates = mesh.edges[..mesh.candidate_edge_count as usize].iter().enumerate();
+        let words = candidates.map(|(edge_id, edge)| (edge_id, incidence_words(edge, &mesh.incidences)));
+        let listed = words.filter(|(_, words)| words.len() > 2);
+        let pairs = listed.flat_map(|(edge_id, words)| pairs(words).map(move |pair| (edge_id, pair)));
+        let both_ways = pairs.flat_map(|(edge_id, [one, other])| [((edge_id, one), other), ((edge_id, other), one)]);
+        Self(both_ways.collect())
+    }
+
+    /// The other word of a word's pair.
+    fn other(&self, edge_id: usize, words: &[u32], word: u32) -> Option<u32> {
+        match *words {
+            [first, second] => Some(if first == word { second } else { first }),
+            _ => self.0.get(&(edge_id, word)).copied(),
+        }
+    }
+}
+
+/// Pairs of an edge's words: each that runs along the edge with one that does not, then what is left two by two. An odd one
+/// is in none.
+fn pairs(words: &[u32]) -> impl Iterator<Item = [u32; 2]> {
+    let (along, against): (Vec<u32>, Vec<u32>) = words.iter().partition(|&&word| is_along(word));
+    let opposite = along.len().min(against.len());
+    let left = [&along[opposite..], &against[opposite..]].concat();
+    let mut pairs: Vec<_> = along.into_iter().zip(against).map(|(one, other)| [one, other]).collect();
+    pairs.extend(left.chunks_exact(2).map(|pair| [pair[0], pair[1]]));
+    pairs.into_iter()
+}
+
 /// The normals across the three edges of a face with area; `None` where no edge can be in a silhouette.
-pub(super) fn neighbour_normals(mesh: &TopologyAwareMesh, face_id: u32, normals: &[DVec3]) -> Option<[[f32; 3]; 3]> {
+pub(super) fn neighbour_normals(
+    mesh: &TopologyAwareMesh,
+    face_id: u32,
+    normals: &[DVec3],
+    pairs: &Pairs,
+) -> Option<[[f32; 3]; 3]> {
     let face = mesh.faces[face_id as usize];
     let own = normals[face_id as usize];
     let vertices = [face.a, face.b, face.c];
@@ -18,7 +58,7 @@ pub(super) fn neighbour_normals(mesh: &TopologyAwareMesh, face_id: u32, normals:
         }
         let words = incidence_words(&mesh.edges[edge_id], &mesh.incidences);
         let word = incidence(face_id, from < to);
-        match pair_of(words, word).map(|other| (other, other >> 1)) {
+        match pairs.other(edge_id, words, word).map(|other| (other, other >> 1)) {
             None | Some((_, UNLIT_FACE)) => Some(-own),
             Some((other, other_face)) => {
                 let normal = normals[other_face as usize];
@@ -31,25 +71,13 @@ pub(super) fn neighbour_normals(mesh: &TopologyAwareMesh, face_id: u32, normals:
     found.iter().any(Option::is_some).then(|| found.map(stored))
 }
 
-/// Edges of more than one pair, or with a face that has no sign to take.
+/// Edges of several pairs whose answers can cancel, or with a face that has no sign to take. An odd number of signs never
+/// adds up to zero.
 pub(super) fn overdrawn_edges(mesh: &TopologyAwareMesh) -> u32 {
     let candidates = &mesh.edges[..mesh.candidate_edge_count as usize];
-    let is_overdrawn = |words: &[u32]| words.len() > 2 || words.iter().any(|word| word >> 1 == UNLIT_FACE);
+    let can_cancel = |words: &[u32]| words.len() > 2 && words.len().is_multiple_of(2);
+    let is_overdrawn = |words: &[u32]| can_cancel(words) || words.iter().any(|word| word >> 1 == UNLIT_FACE);
     candidates.iter().filter(|edge| is_overdrawn(incidence_words(edge, &mesh.incidences))).count() as u32
-}
-
-/// The word that is asked together with one of an edge's: each that runs along the edge with one that does not, then what
-/// is left two by two. An odd one has none.
-fn pair_of(words: &[u32], word: u32) -> Option<u32> {
-    let index = words.iter().position(|&other| other == word)?;
-    let alike = || words.iter().filter(|&&other| is_along(other) == is_along(word));
-    let mut others = words.iter().filter(|&&other| is_along(other) != is_along(word));
-    let opposite_count = others.clone().count();
-    let rank = words[..index].iter().filter(|&&other| is_along(other) == is_along(word)).count();
-    if rank < opposite_count {
-        return others.nth(rank).copied();
-    }
-    alike().nth(opposite_count + ((rank - opposite_count) ^ 1)).copied()
 }
 
 fn is_along(word: u32) -> bool {
@@ -64,11 +92,8 @@ mod tests {
     fn opposite_ways_are_paired_first() {
         let along = |face| incidence(face, true);
         let against = |face| incidence(face, false);
-        let words = [along(0), along(1), against(2), along(3), along(4)];
-        let pairs: Vec<_> = words.iter().map(|&word| pair_of(&words, word)).collect();
-        let expected = [Some(against(2)), Some(along(3)), Some(along(0)), Some(along(1)), None];
-        assert_eq!(pairs, expected);
-        assert_eq!(pair_of(&[along(7)], along(7)), None);
-        assert_eq!(pair_of(&[along(7)], against(7)), None);
+        let found: Vec<_> = pairs(&[along(0), along(1), against(2), along(3), along(4)]).collect();
+        assert_eq!(found, [[along(0), against(2)], [along(1), along(3)]]);
+        assert_eq!(pairs(&[along(7)]).count(), 0);
     }
 }
