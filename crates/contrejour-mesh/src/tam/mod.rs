@@ -8,11 +8,11 @@ mod neighbours;
 pub use encode::{TamError, TamForm, TamPrecision};
 pub use memory::TamMemory;
 
-use contrejour_layout::Face;
 use rayon::prelude::*;
 
 use crate::TopologyAwareMesh;
 use crate::planes::unit_normal;
+use crate::topology::repeats_a_vertex;
 use neighbours::{Pairs, neighbour_normals};
 
 /// One face and the normals of the faces beside it.
@@ -94,8 +94,7 @@ impl TamStream {
 
 /// Which faces have an area.
 fn has_area(mesh: &TopologyAwareMesh) -> Vec<bool> {
-    let has_three_vertices = |face: &Face| face.a != face.b && face.b != face.c && face.c != face.a;
-    let mut has_area: Vec<bool> = mesh.faces.par_iter().map(has_three_vertices).collect();
+    let mut has_area: Vec<bool> = mesh.faces.par_iter().map(|face| !repeats_a_vertex(face)).collect();
     mesh.partners.iter().for_each(|partner| has_area[partner.face as usize] = false);
     has_area
 }

@@ -56,7 +56,7 @@ impl EdgeTable {
 
     /// The edge between two vertices.
     pub(super) fn find(&self, low_vertex: u32, high_vertex: u32) -> Option<usize> {
-        self.edges.binary_search_by_key(&(low_vertex, high_vertex), |edge| (edge.low_vertex, edge.high_vertex)).ok()
+        find_edge(&self.edges, low_vertex, high_vertex)
     }
 
     /// The incidence words of an edge, to be changed.
@@ -70,6 +70,11 @@ impl EdgeTable {
             &mut bytemuck::cast_mut::<Edge, [u32; 4]>(edge)[PAIR_WORDS][..count]
         }
     }
+}
+
+/// Index of the edge between two vertices among edges by (low, high) vertex.
+pub(super) fn find_edge(edges: &[Edge], low_vertex: u32, high_vertex: u32) -> Option<usize> {
+    edges.binary_search_by_key(&(low_vertex, high_vertex), |edge| (edge.low_vertex, edge.high_vertex)).ok()
 }
 
 /// The incidence words of an edge, one for each face at it; `incidences` are the lists that belong to the edge.

@@ -58,7 +58,7 @@ pub(super) fn welded_faces(triangles: &[[u32; 3]], ids: &[u32]) -> Vec<Face> {
 }
 
 /// Whether a face names a vertex twice, so that it cancels itself.
-pub(super) fn repeats_a_vertex(face: &Face) -> bool {
+pub(crate) fn repeats_a_vertex(face: &Face) -> bool {
     face.a == face.b || face.b == face.c || face.c == face.a
 }
 

@@ -24,6 +24,9 @@ pub use report::{FINDINGS_LISTED, Findings, TopologyReport};
 
 use contrejour_layout::{Edge, Face, VertexEdge};
 
+use edge_table::find_edge;
+pub(crate) use faces::repeats_a_vertex;
+
 /// The triangles plus all that a shader must know about their neighbours, ready for upload.
 ///
 /// A vertex id is the lowest index among the source vertices with the same position bits (`-0.0` = `0.0`), so a
@@ -85,17 +88,19 @@ impl TopologyAwareMesh {
     }
 
     /// Where the corners of a face are.
-    pub(crate) fn corners(&self, face: &Face) -> [[f32; 3]; 3] {
+    ///
+    /// # Panics
+    ///
+    /// When the face names a vertex without position.
+    pub fn corners(&self, face: &Face) -> [[f32; 3]; 3] {
         [face.a, face.b, face.c].map(|vertex| self.positions[vertex as usize])
     }
 
     /// The edge between two vertices, the lower first.
     pub(crate) fn edge_between(&self, low_vertex: u32, high_vertex: u32) -> Option<usize> {
         let (candidates, others) = self.edges.split_at(self.candidate_edge_count as usize);
-        let find = |edges: &[Edge]| {
-            edges.binary_search_by_key(&(low_vertex, high_vertex), |edge| (edge.low_vertex, edge.high_vertex)).ok()
-        };
-        find(candidates).or_else(|| Some(candidates.len() + find(others)?))
+        let among = |edges| find_edge(edges, low_vertex, high_vertex);
+        among(candidates).or_else(|| Some(candidates.len() + among(others)?))
     }
 
     /// The candidate edges of a vertex, by ascending edge.

@@ -12,7 +12,7 @@ impl FaceSigns {
     pub fn exact(mesh: &TopologyAwareMesh, light: &CasterLight) -> Self {
         let light_object = light.light_object.map(f32::from_bits);
         let is_lit = |face: &Face| {
-            let [a, b, c] = corners(mesh, face);
+            let [a, b, c] = mesh.corners(face);
             lit(a, b, c, light_object, light.mirrored == 1)
         };
         Self(mesh.faces.iter().map(is_lit).collect())
@@ -24,7 +24,7 @@ pub(in super::super) fn bare_lit(mesh: &TopologyAwareMesh, light: &CasterLight) 
     let [x, y, z, w] = light.light_object.map(f32::from_bits);
     let sign = if light.mirrored == 1 { -1.0 } else { 1.0 };
     lit_words(mesh.faces.iter().map(|face| {
-        let [a, b, c] = corners(mesh, face).map(glam::Vec3::from);
+        let [a, b, c] = mesh.corners(face).map(glam::Vec3::from);
         sign * (b - a).cross(c - a).dot(glam::Vec3::new(x, y, z) - w * a) > 0.0
     }))
 }
@@ -47,10 +47,6 @@ fn is_set(words: &[u32], face: usize) -> bool {
 pub(in super::super) fn wrong_signs(exact: &FaceSigns, found: &[&[u32]]) -> u64 {
     let is_wrong = |&(face, is_lit): &(usize, &bool)| found.iter().any(|words| is_set(words, face) != *is_lit);
     exact.0.iter().enumerate().filter(is_wrong).count() as u64
-}
-
-fn corners(mesh: &TopologyAwareMesh, face: &Face) -> [[f32; 3]; 3] {
-    [face.a, face.b, face.c].map(|vertex| mesh.positions[vertex as usize])
 }
 
 #[cfg(test)]
