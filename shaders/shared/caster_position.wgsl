@@ -1,9 +1,13 @@
 // Positions of a caster, brought near 1 by its origin and its power of two. Never used for facing.
 
 fn scaled_position(caster: Caster, vertex: u32) -> vec3f {
+    let origin = bitcast<vec3u>(caster.position_origin);
+    return scaled(position_bits(caster, vertex), caster.position_scale) - scaled(origin, caster.position_scale);
+}
+
+fn position_bits(caster: Caster, vertex: u32) -> vec3u {
     let word = caster.first_position_word + vertex * caster.position_stride_words;
-    let bits = vec3u(positions[word], positions[word + 1u], positions[word + 2u]);
-    return scaled(bits, caster.position_scale) - scaled(bitcast<vec3u>(caster.position_origin), caster.position_scale);
+    return vec3u(positions[word], positions[word + 1u], positions[word + 2u]);
 }
 
 fn scaled(bits: vec3u, power: f32) -> vec3f {

@@ -4,6 +4,10 @@ const INCIDENCE_NONE = 0xffffffffu;
 const INCIDENCE_LIST = 0xfffffffeu;
 const UNLIT_FACE = 0x7ffffffdu;
 const NO_CASTER = 0xffffffffu;
+const ACROSS_NOTHING = 0xffffffffu;
+const ACROSS_NEVER = 0xfffffffeu;
+const ACROSS_ALONG = 0x80000000u;
+const ACROSS_ALONE = 0x40000000u;
 const BLOCK_SIZE = 64u;
 const FACES_PER_WORD = 32u;
 const LIT_WORDS_PER_BLOCK = 2u;
@@ -15,6 +19,12 @@ struct Face {
     a: u32,
     b: u32,
     c: u32,
+}
+
+struct FaceNeighbours {
+    across_ab: u32,
+    across_bc: u32,
+    across_ca: u32,
 }
 
 struct Edge {

@@ -63,6 +63,7 @@ pub const VERTICES_PER_CORNER: u32 = 12;
 /// Every struct that Rust and WGSL share, for the test that compares them with naga.
 pub const SHARED_STRUCTS: &[SharedStruct] = &[
     Face::SHARED,
+    FaceNeighbours::SHARED,
     Edge::SHARED,
     VertexEdge::SHARED,
     Caster::SHARED,

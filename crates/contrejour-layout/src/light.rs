@@ -132,7 +132,7 @@ shared_struct! {
         ndc_offset: f32,
         /// Half the light's size on the image plane: NDC per unit of q between blocker and receiver.
         light_size: f32,
-        /// Largest radius in which blockers are searched, in NDC.
+        /// Largest radius in which blockers are searched, or largest half width of a penumbra, in NDC.
         search_max_ndc: f32,
         /// Radius of the disk over which moments are averaged, in texels.
         blur_texels: f32,
@@ -146,8 +146,8 @@ shared_struct! {
         blend_depth: f32,
         /// Depth in the eye's view where a cascade ends; 0 where the light is not cascaded.
         end_depth: f32,
-        /// Zero.
-        unused_0: u32,
+        /// Width of the hardest edge of a silhouette map, in texels.
+        edge_texels: f32,
     }
 }
 

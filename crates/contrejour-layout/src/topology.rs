@@ -15,6 +15,32 @@ shared_struct! {
 }
 
 shared_struct! {
+    /// What is across the three edges of a face: the third corner of the face there, or [`ACROSS_NOTHING`], or
+    /// [`ACROSS_NEVER`]; with the bits [`ACROSS_ALONG`] and [`ACROSS_ALONE`].
+    FaceNeighbours {
+        /// Across the edge from the first to the second corner.
+        across_ab: u32,
+        /// Across the edge from the second to the third corner.
+        across_bc: u32,
+        /// Across the edge from the third to the first corner.
+        across_ca: u32,
+    }
+}
+
+/// No face is across an edge: it is always in the silhouette.
+pub const ACROSS_NOTHING: u32 = u32::MAX;
+
+/// The edge is never in the silhouette.
+pub const ACROSS_NEVER: u32 = u32::MAX - 1;
+
+/// Bit of a word of [`FaceNeighbours`]: the face across runs along the edge as this one does, so one of the two is wound the
+/// wrong way.
+pub const ACROSS_ALONG: u32 = 1 << 31;
+
+/// Bit of a word of [`FaceNeighbours`]: the face across may not draw the edge, so this one does also where it is unlit.
+pub const ACROSS_ALONE: u32 = 1 << 30;
+
+shared_struct! {
     /// One edge and the faces at it.
     ///
     /// With at most two faces, `first` and `second` are [incidence words](incidence). With more, `first` is

@@ -14,6 +14,7 @@ pub(super) struct StreamReport {
     half_items: TamMemory,
     face_records: TamMemory,
     half_face_records: TamMemory,
+    indices: TamMemory,
 }
 
 impl StreamReport {
@@ -29,6 +30,7 @@ impl StreamReport {
             half_items: memory(TamForm::Items, TamPrecision::Half),
             face_records: memory(TamForm::Faces, TamPrecision::Full),
             half_face_records: memory(TamForm::Faces, TamPrecision::Half),
+            indices: TamMemory::of_neighbours(&mesh.report),
         }
     }
 
@@ -46,6 +48,7 @@ impl StreamReport {
             ("    in halves", &self.half_items),
             ("  bytes of faces", &self.face_records),
             ("    in halves", &self.half_face_records),
+            ("  bytes of indices", &self.indices),
         ];
         let counts = counts.map(|(name, count)| row(name, count) + "\n");
         let forms = forms.map(|(name, TamMemory { face_bytes, bytes, of_unindexed, of_indexed })| {

@@ -1,5 +1,7 @@
 //! What a stream takes, against what else would draw the mesh.
 
+use contrejour_layout::{Face, FaceNeighbours};
+
 use super::{TamForm, TamPrecision, TamStream};
 use crate::TopologyReport;
 
@@ -28,11 +30,24 @@ impl TamStream {
     /// What it takes in one form, against the whole mesh that a report is of. Shares of a mesh without faces are 0.
     pub fn memory(&self, form: TamForm, precision: TamPrecision, mesh: &TopologyReport) -> TamMemory {
         let face_bytes = form.face_bytes(precision);
-        let bytes = face_bytes * self.faces.len();
+        TamMemory::new(face_bytes, face_bytes * self.faces.len(), mesh)
+    }
+}
+
+impl TamMemory {
+    /// What a mesh takes in the form of [`face_neighbours`](crate::face_neighbours): the corners of each face and what is
+    /// across its edges, as indices, and the positions once.
+    pub fn of_neighbours(mesh: &TopologyReport) -> Self {
+        let face_bytes = size_of::<Face>() + size_of::<FaceNeighbours>();
+        let positions = size_of::<[f32; 3]>() * mesh.vertices as usize;
+        Self::new(face_bytes, face_bytes * mesh.faces as usize + positions, mesh)
+    }
+
+    fn new(face_bytes: usize, bytes: usize, mesh: &TopologyReport) -> Self {
         let faces = f64::from(mesh.faces);
         let vertices = f64::from(mesh.vertices - mesh.unused_vertices.count);
         let share = |all: f64| if all > 0.0 { bytes as f64 / all } else { 0.0 };
-        TamMemory {
+        Self {
             face_bytes,
             bytes,
             of_unindexed: share(3.0 * VERTEX_BYTES * faces),

@@ -7,13 +7,13 @@ mod neighbours;
 
 pub use encode::{TamError, TamForm, TamPrecision};
 pub use memory::TamMemory;
+pub use neighbours::face_neighbours;
 
 use rayon::prelude::*;
 
 use crate::TopologyAwareMesh;
 use crate::planes::unit_normal;
-use crate::topology::repeats_a_vertex;
-use neighbours::{Pairs, neighbour_normals};
+use neighbours::{Pairs, has_area, neighbour_normals};
 
 /// One face and the normals of the faces beside it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -90,13 +90,6 @@ impl TamStream {
             face_ids,
         }
     }
-}
-
-/// Which faces have an area.
-fn has_area(mesh: &TopologyAwareMesh) -> Vec<bool> {
-    let mut has_area: Vec<bool> = mesh.faces.par_iter().map(|face| !repeats_a_vertex(face)).collect();
-    mesh.partners.iter().for_each(|partner| has_area[partner.face as usize] = false);
-    has_area
 }
 
 #[cfg(test)]

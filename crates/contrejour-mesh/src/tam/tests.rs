@@ -1,6 +1,8 @@
 //! What faces know of their neighbours, against the signed multiplicities of edges.
 
-use contrejour_layout::{INCIDENCE_ALONG, UNLIT_FACE};
+use contrejour_layout::{
+    ACROSS_ALONE, ACROSS_ALONG, ACROSS_NEVER, ACROSS_NOTHING, FaceNeighbours, INCIDENCE_ALONG, UNLIT_FACE,
+};
 use glam::DVec3;
 use half::f16;
 
@@ -74,6 +76,38 @@ fn said_by_faces(stream: &TamStream, light: DVec3) -> Vec<[[u32; 3]; 2]> {
     edges
 }
 
+/// The same as the vertex stage asks what is across; each edge as often as it is drawn.
+fn drawn_by_indices(mesh: &TopologyAwareMesh, neighbours: &[FaceNeighbours], light: DVec3) -> Vec<[[u32; 3]; 2]> {
+    let position = |vertex: u32| mesh.positions[vertex as usize];
+    let is_lit = |vertices: [u32; 3]| {
+        let corners = vertices.map(position);
+        side(unit_normal(corners).as_vec3().to_array(), corners[0], light) == 1
+    };
+    let mut edges = Vec::new();
+    for (face, neighbours) in mesh.faces.iter().zip(neighbours) {
+        let vertices = [face.a, face.b, face.c];
+        let lit = is_lit(vertices);
+        for (turn, across) in [neighbours.across_ab, neighbours.across_bc, neighbours.across_ca].into_iter().enumerate()
+        {
+            let [from, to] = [vertices[turn], vertices[(turn + 1) % 3]];
+            let is_along = across & ACROSS_ALONG != 0;
+            let opposite = across & !(ACROSS_ALONG | ACROSS_ALONE);
+            let is_outline = match across {
+                ACROSS_NOTHING => true,
+                ACROSS_NEVER => false,
+                _ if !lit && across & ACROSS_ALONE == 0 => false,
+                _ if is_along => lit == is_lit([from, to, opposite]),
+                _ => lit != is_lit([to, from, opposite]),
+            };
+            if is_outline {
+                edges.push(ends([from, to].map(position)));
+            }
+        }
+    }
+    edges.sort_unstable();
+    edges
+}
+
 /// The same by their signed multiplicities.
 fn by_definition(mesh: &TopologyAwareMesh, light: DVec3) -> Vec<[[u32; 3]; 2]> {
     let sign = |face: u32| {
@@ -110,8 +144,13 @@ fn check(positions: &[[f32; 3]], triangles: &[[u32; 3]]) {
     for motion in [Motion::Rigid, Motion::Deforming] {
         let mesh = mesh(positions, triangles, motion);
         let stream = stream(&mesh);
+        let neighbours = face_neighbours(&mesh, 0..mesh.faces.len() as u32);
         for light in lights() {
-            assert_eq!(said_by_faces(&stream, light), by_definition(&mesh, light), "{motion:?}, light at {light}");
+            let defined = by_definition(&mesh, light);
+            assert_eq!(said_by_faces(&stream, light), defined, "{motion:?}, light at {light}");
+            let mut drawn = drawn_by_indices(&mesh, &neighbours, light);
+            drawn.dedup();
+            assert_eq!(drawn, defined, "{motion:?}, light at {light}, by indices");
         }
     }
 }
@@ -129,6 +168,16 @@ fn faces_say_what_the_definition_says() {
         &[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.5], [1.0, -1.0, 0.7]],
         &[[0, 2, 3], [2, 1, 3], [0, 1, 2], [1, 0, 4]],
     );
+}
+
+#[test]
+fn one_of_two_faces_draws_an_edge() {
+    let mesh = mesh(&CUBE, &CUBE_FACES, Motion::Rigid);
+    let mut neighbours = face_neighbours(&mesh, 0..12);
+    let light = DVec3::new(3.0, 0.4, 0.6);
+    assert_eq!(drawn_by_indices(&mesh, &neighbours, light), by_definition(&mesh, light), "each once");
+    neighbours[8].across_ab = ACROSS_NEVER;
+    assert_ne!(drawn_by_indices(&mesh, &neighbours, light), by_definition(&mesh, light), "a lost edge is found");
 }
 
 #[test]
