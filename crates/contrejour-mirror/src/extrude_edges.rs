@@ -6,12 +6,11 @@ use contrejour_layout::{
     Caster, CasterLight, Counters, Edge, LightView, OUTLINE_BLOCKER_LEFT, OUTLINE_BLOCKER_RIGHT, OWN_END_HIGH,
     OWN_END_LOW, Quad, SilhouetteEdge,
 };
-use glam::{Vec2, Vec4, Vec4Swizzles};
 
 use crate::caster_position::scaled_position;
+use crate::edge_image::edge_image;
 use crate::image_plane::{clip_from_object, clockwise, counter_clockwise, image_direction};
-use crate::light_outline::widest_ndc;
-use crate::view_depth::{depth_of_clip, least_depth, pancakes, q_of_depth, smoothie_width};
+use crate::view_depth::smoothie_width;
 
 /// The stage `extrude_edges`: silhouette edges to quads.
 pub struct ExtrudeEdges<'a> {
@@ -67,32 +66,20 @@ impl ExtrudeEdges<'_> {
             self.counters.point_edges += 1;
             return None;
         };
-        let segment = Segment {
-            low: clip_from_object * low.extend(1.0),
-            high: clip_from_object * high.extend(1.0),
-            delta: clip_from_object * (high - low).extend(0.0),
-        };
-
-        // Clip by depth first, since the width that widens the frustum depends on it.
-        let depth_span = segment.clip_by_depth(Span { begin: 0.0, end: 1.0 }, pancakes(self.view))?;
-        let width_at = |t| smoothie_width(self.view, self.image_of(segment.at(t)).1);
-        let width = width_at(depth_span.begin).max(width_at(depth_span.end));
-        let span = segment.clip_by_sides(depth_span, 1.0 + widest_ndc(self.view, width))?;
+        let image = edge_image(self.view, &clip_from_object, low, high)?;
 
         // Extrude away from the blocker.
-        let (low_ndc, low_q) = self.image_of(segment.at(span.begin));
-        let (high_ndc, high_q) = self.image_of(segment.at(span.end));
-        let q = [low_q, high_q];
+        let q = [image.low.q, image.high.q];
         let (side, outward) = if silhouette.right == 0 {
             (OUTLINE_BLOCKER_LEFT, clockwise(direction))
         } else {
             (OUTLINE_BLOCKER_RIGHT, counter_clockwise(direction))
         };
-        let own_low = if span.begin == 0.0 { OWN_END_LOW } else { 0 };
-        let own_high = if span.end == 1.0 { OWN_END_HIGH } else { 0 };
+        let own_low = if image.span.begin == 0.0 { OWN_END_LOW } else { 0 };
+        let own_high = if image.span.end == 1.0 { OWN_END_HIGH } else { 0 };
         Some(Quad {
-            low_ndc: low_ndc.to_array(),
-            high_ndc: high_ndc.to_array(),
+            low_ndc: image.low.ndc.to_array(),
+            high_ndc: image.high.ndc.to_array(),
             outward: outward.to_array(),
             width_ndc: q.map(|q| smoothie_width(self.view, q)),
             q,
@@ -104,83 +91,6 @@ impl ExtrudeEdges<'_> {
             side,
         })
     }
-
-    /// NDC and q of a point that is in view but for rounding: the cut end of an edge that is far larger than the view can
-    /// be anywhere, even in the plane of the light.
-    fn image_of(&self, clip: Vec4) -> (Vec2, f32) {
-        let depth = depth_of_clip(self.view, clip).max(least_depth(self.view)).min(self.view.far_depth);
-        let w = if self.view.perspective == 1 { depth } else { clip.w };
-        let most = Vec2::splat(1.0 + widest_ndc(self.view, self.view.width_max_ndc));
-        ((clip.xy() / w).max(-most).min(most), q_of_depth(self.view, depth))
-    }
-}
-
-/// An edge in clip space.
-struct Segment {
-    low: Vec4,
-    high: Vec4,
-    delta: Vec4,
-}
-
-/// The part of an edge that is inside: from `begin` to `end` of its parameter 0..1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Span {
-    begin: f32,
-    end: f32,
-}
-
-impl Segment {
-    /// The ends themselves where nothing was cut off, so that neighbours share them to the bit.
-    fn at(&self, t: f32) -> Vec4 {
-        if t == 0.0 {
-            return self.low;
-        }
-        if t == 1.0 {
-            return self.high;
-        }
-        self.low + t * self.delta
-    }
-
-    /// What is left between the near and the far plane, or before the far one where casters in front cast too; none where
-    /// nothing is.
-    fn clip_by_depth(&self, span: Span, pancakes: bool) -> Option<Span> {
-        let Self { low, high, .. } = self;
-        clip_by_plane(span, low.w - low.z, high.w - high.z)
-            .and_then(|span| if pancakes { Some(span) } else { clip_by_plane(span, low.z, high.z) })
-            .filter(Span::has_length)
-    }
-
-    /// What is left between the four sides; none where nothing is.
-    fn clip_by_sides(&self, span: Span, half_side: f32) -> Option<Span> {
-        let Self { low, high, .. } = self;
-        clip_by_plane(span, half_side * low.w + low.x, half_side * high.w + high.x)
-            .and_then(|span| clip_by_plane(span, half_side * low.w - low.x, half_side * high.w - high.x))
-            .and_then(|span| clip_by_plane(span, half_side * low.w + low.y, half_side * high.w + high.y))
-            .and_then(|span| clip_by_plane(span, half_side * low.w - low.y, half_side * high.w - high.y))
-            .filter(Span::has_length)
-    }
-}
-
-impl Span {
-    fn has_length(&self) -> bool {
-        self.begin < self.end
-    }
-}
-
-/// Keeps the part where the distance to a plane, linear from one end to the other, is not negative; none where it is
-/// negative at both ends. Liang & Barsky 1984.
-fn clip_by_plane(span: Span, low_distance: f32, high_distance: f32) -> Option<Span> {
-    if low_distance >= 0.0 && high_distance >= 0.0 {
-        return Some(span);
-    }
-    if low_distance < 0.0 && high_distance < 0.0 {
-        return None;
-    }
-    let crossing = low_distance / (low_distance - high_distance);
-    if low_distance < 0.0 {
-        return Some(Span { begin: span.begin.max(crossing), ..span });
-    }
-    Some(Span { end: span.end.min(crossing), ..span })
 }
 
 #[cfg(test)]
@@ -189,27 +99,6 @@ mod tests {
 
     use super::*;
     use crate::test_scene::{TestLight, TestScene};
-
-    const WHOLE: Span = Span { begin: 0.0, end: 1.0 };
-
-    #[test]
-    fn planes_cut_what_is_outside() {
-        assert_eq!(clip_by_plane(WHOLE, 1.0, 0.0), Some(WHOLE));
-        assert_eq!(clip_by_plane(WHOLE, -1.0, -0.5), None);
-        assert_eq!(clip_by_plane(WHOLE, -1.0, 3.0), Some(Span { begin: 0.25, end: 1.0 }));
-        assert_eq!(clip_by_plane(WHOLE, 3.0, -1.0), Some(Span { begin: 0.0, end: 0.75 }));
-        assert_eq!(clip_by_plane(Span { begin: 0.5, end: 1.0 }, -1.0, 3.0), Some(Span { begin: 0.5, end: 1.0 }));
-    }
-
-    #[test]
-    fn segment_outside_one_corner_of_the_frustum_is_empty() {
-        // Passes the left plane beyond the top plane: each plane alone leaves something.
-        let low = Vec4::new(-3.0, 0.0, 0.5, 1.0);
-        let high = Vec4::new(0.0, 3.0, 0.5, 1.0);
-        let segment = Segment { low, high, delta: high - low };
-        assert_eq!(segment.clip_by_sides(WHOLE, 1.0), None);
-        assert!(segment.clip_by_sides(WHOLE, 2.0).is_some());
-    }
 
     #[test]
     fn smoothies_extend_away_from_the_face() {

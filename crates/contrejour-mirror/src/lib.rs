@@ -25,6 +25,7 @@ mod caster_position;
 mod classify_faces;
 mod deform_positions;
 mod detect_silhouette;
+mod edge_image;
 mod extrude_edges;
 mod facing;
 mod frame;

@@ -17,6 +17,7 @@ pub(super) const EXTRUDE_EDGES: ComputeStage = ComputeStage {
         "atomic_counters",
         "caster_position",
         "image_plane",
+        "edge_image",
         "power_of_two",
         "view_depth"
     ),
