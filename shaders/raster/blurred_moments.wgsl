@@ -5,7 +5,7 @@
 // Binomial weights 1 3 3 1 along each axis, so that levels look round when they are enlarged. Each halving adds three
 // quarters of a texel squared of the level before to the variance along an axis: (4^level - 1) / 4 in all.
 
-@group(0) @binding(0) var finer: texture_2d<f32>;
+@group(1) @binding(0) var finer: texture_2d<f32>;
 
 @vertex
 fn vertex_full_screen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {

@@ -4,7 +4,7 @@
 // Donnelly & Lauritzen 2006; Lauritzen & McCool 2008.
 
 @group(0) @binding(0) var<uniform> view: LightView;
-@group(0) @binding(1) var shadow_depth: texture_2d<f32>;
+@group(1) @binding(0) var shadow_depth: texture_2d<f32>;
 
 @vertex
 fn vertex_full_screen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {

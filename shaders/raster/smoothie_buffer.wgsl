@@ -8,7 +8,7 @@
 @group(0) @binding(0) var<uniform> view: LightView;
 @group(0) @binding(1) var<storage, read> quads: array<Quad>;
 @group(0) @binding(2) var<storage, read> corners: array<Corner>;
-@group(0) @binding(3) var shadow_depth: texture_2d<f32>;
+@group(1) @binding(0) var shadow_depth: texture_2d<f32>;
 
 // 0 leaves alpha as it is, and shows the contact problem that the remap cures.
 override remap_alpha = 1u;

@@ -23,5 +23,5 @@ struct ReceiverView {
     warp_exponent: f32,
     blend_depth: f32,
     end_depth: f32,
-    unused_0: u32,
+    edge_texels: f32,
 }

@@ -15,6 +15,8 @@ struct ContrejourLookup {
     position_world: vec3f,
     normal_world: vec3f,
     ndc: vec2f,
+    // Where the receiver itself is: no bias moves it.
+    place_ndc: vec2f,
     clip_w: f32,
     // What the bias left of the receiver's depth.
     depth: f32,
@@ -60,7 +62,8 @@ fn contrejour_lookup(position_world: vec3f, normal_world: vec3f) -> ContrejourLo
     let ndc = clip.xy / clip.w;
     let in_map = clip.w > 0.0 && all(abs(ndc) <= vec2f(1.0)) && depth <= view.far_depth;
     let is_averted = facing < 0.0;
-    return ContrejourLookup(position, normal_world, ndc, clip.w, depth - footprint * bias_texels, in_map, is_averted);
+    let place_ndc = unbiased.xy / unbiased.w;
+    return ContrejourLookup(position, normal_world, ndc, place_ndc, clip.w, depth - footprint * bias_texels, in_map, is_averted);
 }
 
 // How lengths on the image plane grow with depth.

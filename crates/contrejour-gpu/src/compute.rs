@@ -77,7 +77,7 @@ impl StagePipeline {
 
     /// The bind group of a page.
     pub fn bind(&self, device: &wgpu::Device, bindings: &Bindings<'_>, page: usize) -> wgpu::BindGroup {
-        bindings.bind(device, self.stage().name(), &self.layout, (self.stage().buffers(), page), None)
+        bindings.bind(device, self.stage().name(), &self.layout, (self.stage().buffers(), page))
     }
 
     /// Records the stage over all pages, for so many views where it works on several; counts its dispatches.

@@ -19,10 +19,18 @@ pub(crate) struct Frame {
     pub buffers: Buffers,
     pub textures: Textures,
     passes: Vec<Arc<MapPipeline>>,
-    /// For each view and each pass one bind group for each page, level by level; none for passes that bind what the view's
-    /// seat has.
-    views: Vec<Vec<Vec<wgpu::BindGroup>>>,
+    /// For each view and each pass.
+    views: Vec<Vec<PassGroups>>,
     page_count: usize,
+}
+
+/// What a pass binds for a view.
+#[derive(Debug)]
+struct PassGroups {
+    /// Buffers, page by page; none where the pass binds those that the view's seat has.
+    of_pages: Vec<wgpu::BindGroup>,
+    /// The map that it reads, level by level.
+    of_levels: Vec<wgpu::BindGroup>,
 }
 
 /// How many commands were recorded.
@@ -74,10 +82,9 @@ impl Frame {
         let groups = |view: usize| {
             let bindings = Bindings { shared, whose: Whose::View(&self.buffers, view) };
             let of_pass = |pass: &Arc<MapPipeline>| {
-                if pass.is_of_seat() {
-                    return Vec::new();
-                }
-                pass.bind(device, &bindings, Some((&self.textures, view)), page_count)
+                let is_of_seat = pass.is_of_seat();
+                let of_pages = if is_of_seat { Vec::new() } else { pass.bind_buffers(device, &bindings, page_count) };
+                PassGroups { of_pages, of_levels: pass.bind_map(device, &self.textures, view) }
             };
             self.passes.iter().map(of_pass).collect()
         };
@@ -96,8 +103,8 @@ impl Frame {
     ) {
         let drawn = DrawnView { view, seat, record, pages: &plan.pages };
         for (pipeline, own) in self.passes.iter().zip(&self.views[view]) {
-            let bind_groups = if pipeline.is_of_seat() { seats.of_pass(pipeline, seat) } else { own };
-            pipeline.encode(encoder, bind_groups, (shared, &self.textures), &drawn, recorded, timer);
+            let of_pages = if pipeline.is_of_seat() { seats.of_pass(pipeline, seat) } else { &own.of_pages };
+            pipeline.encode(encoder, (of_pages, &own.of_levels), (shared, &self.textures), &drawn, recorded, timer);
         }
     }
 }

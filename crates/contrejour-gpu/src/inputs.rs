@@ -41,6 +41,10 @@ pub struct Maps<'a> {
     /// Nearest linear smoothie depth and least alpha, `Rg32Float`; where the buffer is in one texture. With 16 bits
     /// `Rg16Float`, depth as a share of the farthest.
     pub smoothie_buffer: Option<&'a wgpu::Texture>,
+    /// Linear depth of the nearest silhouette, the view's farthest where none is near, and the signed distance to it in
+    /// texels, positive on the blocker's side: `Rg32Float`; for silhouette maps. With 16 bits `Rg16Float`, depth as a share
+    /// of the farthest.
+    pub silhouette_map: Option<&'a wgpu::Texture>,
 }
 
 impl<'a> Maps<'a> {
@@ -53,6 +57,8 @@ impl<'a> Maps<'a> {
             TextureKind::SmoothieDepth => self.smoothie_depth,
             TextureKind::SmoothieAlpha => self.smoothie_alpha,
             TextureKind::SmoothieBuffer => self.smoothie_buffer,
+            TextureKind::SilhouetteMap => self.silhouette_map,
+            TextureKind::SilhouetteOrder => None,
         }
     }
 }

@@ -1,15 +1,15 @@
 //! What of a mesh lies in each pool. Each is written with `write(byte offset, bytes)`.
 
-use contrejour_layout::{BLOCK_SIZE, Edge, Face, VertexEdge};
-use contrejour_mesh::FacePlanes;
+use contrejour_layout::{BLOCK_SIZE, Edge, Face, FaceNeighbours, VertexEdge};
+use contrejour_mesh::{FacePlanes, face_neighbours};
 use contrejour_plan::{BufferKind, MeshPiece};
 
 use crate::pieces::vertex_edges_of_piece;
 use crate::pool::{MeshPool, PlacedPiece};
 
 /// The pools that meshes fill page by page, but for planes.
-pub(crate) const MESH_POOLS: [BufferKind; 4] =
-    [BufferKind::Faces, BufferKind::Edges, BufferKind::Incidences, BufferKind::VertexEdges];
+pub(crate) const MESH_POOLS: [BufferKind; 5] =
+    [BufferKind::Faces, BufferKind::FaceNeighbours, BufferKind::Edges, BufferKind::Incidences, BufferKind::VertexEdges];
 
 impl MeshPool {
     /// Writes meshes' own positions, all or those of meshes that are new.
@@ -40,6 +40,14 @@ impl MeshPool {
             BufferKind::Faces => {
                 let faces = &mesh.faces[piece.first_face as usize..][..piece.faces as usize];
                 write(size_of::<Face>() as u64 * u64::from(place.face), bytemuck::cast_slice(faces));
+            }
+            // No vertex stage asks masked faces.
+            BufferKind::FaceNeighbours if pooled.is_masked() => {}
+            BufferKind::FaceNeighbours => {
+                let first = piece.first_face;
+                let neighbours = face_neighbours(mesh, first..first + piece.faces);
+                let offset = size_of::<FaceNeighbours>() as u64 * u64::from(place.face);
+                write(offset, bytemuck::cast_slice(&neighbours));
             }
             BufferKind::Edges => {
                 let edges = &mesh.edges[piece.first_edge as usize..][..piece.edges() as usize];

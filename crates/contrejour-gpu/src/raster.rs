@@ -14,7 +14,8 @@ use crate::timer::PassTimer;
 pub(crate) struct MapPipeline {
     description: &'static MapPass,
     planned: Planned,
-    layout: wgpu::BindGroupLayout,
+    buffers_layout: wgpu::BindGroupLayout,
+    map_layout: Option<wgpu::BindGroupLayout>,
     pipelines: Vec<wgpu::RenderPipeline>,
 }
 
@@ -63,10 +64,12 @@ impl MapPipeline {
     pub fn new(device: &wgpu::Device, description: &'static MapPass, plan: &FramePlan) -> Self {
         let name = description.pass.name();
         let planned = Planned::new(description, plan);
-        let layout = bind_group_layout(device, description);
+        let buffers_layout = buffers_layout(device, description);
+        let map_layout = description.reads.map(|_| map_layout(device, description));
+        let layouts: Vec<_> = std::iter::once(&buffers_layout).chain(&map_layout).map(Some).collect();
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(name),
-            bind_group_layouts: &[Some(&layout)],
+            bind_group_layouts: &layouts,
             immediate_size: 0,
         });
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -114,7 +117,7 @@ impl MapPipeline {
             }))
         };
         let pipelines = planned.pipelines.iter().filter_map(pipeline).collect();
-        Self { description, planned, layout, pipelines }
+        Self { description, planned, buffers_layout, map_layout, pipelines }
     }
 
     /// Whether a light with this plan can use it.
@@ -126,7 +129,7 @@ impl MapPipeline {
         self.description.pass
     }
 
-    /// Whether it binds what the seat of a view has; else it binds the view's own maps, whatever its seat.
+    /// Whether it binds buffers that the seat of a view has; else those of the view itself, whatever its seat.
     pub fn is_of_seat(&self) -> bool {
         bound_buffers(self.pass()).iter().any(|kind| kind.seating() == Seating::Apart)
     }
@@ -137,44 +140,54 @@ impl MapPipeline {
         if is_drawn_once { 1 } else { page_count }
     }
 
-    /// One bind group for each page that the pass draws, level by level. What it reads are maps, of which view is said beside
-    /// them; what it binds for a seat reads none.
-    pub fn bind(
+    /// Its buffers: one bind group for each page that the pass draws.
+    pub fn bind_buffers(
         &self,
         device: &wgpu::Device,
         bindings: &Bindings<'_>,
-        read: Option<(&Textures, usize)>,
         page_count: usize,
     ) -> Vec<wgpu::BindGroup> {
         let kinds = bound_buffers(self.pass());
-        let bind = |page: usize, read: Option<&wgpu::TextureView>| {
-            let texture = read.map(|view| (kinds.len() as u32, view));
-            bindings.bind(device, self.pass().name(), &self.layout, (&kinds, page), texture)
+        let bind = |page| bindings.bind(device, self.pass().name(), &self.buffers_layout, (&kinds, page));
+        (0..self.drawn_pages(page_count)).map(bind).collect()
+    }
+
+    /// The map of a view that it reads: one bind group for each level; none where it reads no map.
+    pub fn bind_map(&self, device: &wgpu::Device, textures: &Textures, view: usize) -> Vec<wgpu::BindGroup> {
+        let Some((kind, layout)) = self.description.reads.zip(self.map_layout.as_ref()) else { return Vec::new() };
+        let levels = textures.levels(kind, view);
+        let levels = match self.description.levels {
+            Levels::First => &levels[..1],
+            Levels::AllButFirst => &levels[..levels.len() - 1],
         };
-        let levels = self.description.reads.zip(read).map(|(kind, (textures, view))| textures.levels(kind, view));
-        let reads: Vec<_> = match (self.description.levels, levels) {
-            (Levels::AllButFirst, Some(levels)) => levels[..levels.len() - 1].iter().map(Some).collect(),
-            (_, levels) => vec![levels.map(|levels| &levels[0])],
+        let bind = |level| {
+            device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(self.pass().name()),
+                layout,
+                entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(level) }],
+            })
         };
-        let pages = 0..self.drawn_pages(page_count);
-        reads.iter().flat_map(|read| pages.clone().map(|page| bind(page, *read))).collect()
+        levels.iter().map(bind).collect()
     }
 
     /// Records the pass over all pages, once for each level that it fills; counts its draws.
     pub fn encode<T: PassTimer>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        bind_groups: &[wgpu::BindGroup],
+        (of_pages, of_levels): (&[wgpu::BindGroup], &[wgpu::BindGroup]),
         (buffers, textures): (&Buffers, &Textures),
         drawn: &DrawnView<'_>,
         recorded: &mut Recorded,
         timer: &mut T,
     ) {
-        let first_level = if self.description.levels == Levels::First { 0 } else { 1 };
-        for (bind_groups, level) in bind_groups.chunks(self.drawn_pages(drawn.pages.len())).zip(first_level..) {
+        let levels: Vec<_> = match self.description.levels {
+            Levels::First => vec![(of_levels.first(), 0)],
+            Levels::AllButFirst => of_levels.iter().map(Some).zip(1..).collect(),
+        };
+        for (map, level) in levels {
             let query = timer.begin(self.description.pass.name(), encoder);
             let writes = T::render_writes(&query);
-            recorded.draws += self.encode_level(encoder, bind_groups, level, (buffers, textures), drawn, writes);
+            recorded.draws += self.encode_level(encoder, (of_pages, map), level, (buffers, textures), drawn, writes);
             timer.end(query, encoder);
         }
     }
@@ -182,7 +195,7 @@ impl MapPipeline {
     fn encode_level(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        bind_groups: &[wgpu::BindGroup],
+        (of_pages, map): (&[wgpu::BindGroup], Option<&wgpu::BindGroup>),
         level: usize,
         (buffers, textures): (&Buffers, &Textures),
         drawn: &DrawnView<'_>,
@@ -215,7 +228,10 @@ impl MapPipeline {
         });
         for (count, pipeline) in self.description.draws.iter().zip(&self.pipelines) {
             pass.set_pipeline(pipeline);
-            for ((page, bind_group), index) in drawn.pages.iter().zip(bind_groups).zip(0..) {
+            if let Some(map) = map {
+                pass.set_bind_group(1, map, &[]);
+            }
+            for ((page, bind_group), index) in drawn.pages.iter().zip(of_pages).zip(0..) {
                 pass.set_bind_group(0, bind_group, &[]);
                 match *count {
                     DrawCount::FullScreen => pass.draw(0..3, 0..1),
@@ -264,9 +280,9 @@ fn load_color(clear: ClearColor, view: &LightView) -> wgpu::LoadOp<wgpu::Color> 
     wgpu::LoadOp::Clear(wgpu::Color { r, g, b: 0.0, a: 0.0 })
 }
 
-fn bind_group_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::BindGroupLayout {
-    let kinds = bound_buffers(description.pass);
-    let buffers = kinds.iter().zip(0..).map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
+/// Group 0: buffers.
+fn buffers_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::BindGroupLayout {
+    let entry = |(kind, binding): (&BufferKind, u32)| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: match kind {
             BufferKind::LightView | BufferKind::Masks | BufferKind::MaskWords => wgpu::ShaderStages::VERTEX_FRAGMENT,
@@ -278,16 +294,23 @@ fn bind_group_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::Bind
             min_binding_size: None,
         },
         count: None,
-    });
-    let texture = description.reads.map(|_| wgpu::BindGroupLayoutEntry {
-        binding: kinds.len() as u32,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty: UNFILTERED_FLOAT,
-        count: None,
-    });
-    let entries: Vec<_> = buffers.chain(texture).collect();
+    };
+    let entries: Vec<_> = bound_buffers(description.pass).iter().zip(0..).map(entry).collect();
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(description.pass.name()),
         entries: &entries,
+    })
+}
+
+/// Group 1: a map that an earlier pass filled.
+fn map_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(description.pass.name()),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: UNFILTERED_FLOAT,
+            count: None,
+        }],
     })
 }

@@ -114,6 +114,7 @@ impl Shadows {
             smoothie_depth: find(TextureKind::SmoothieDepth),
             smoothie_alpha: find(TextureKind::SmoothieAlpha),
             smoothie_buffer: find(TextureKind::SmoothieBuffer),
+            silhouette_map: find(TextureKind::SilhouetteMap),
         }
     }
 }

@@ -60,24 +60,19 @@ pub(crate) enum Whose<'a> {
 }
 
 impl Bindings<'_> {
-    /// A bind group of a page's buffers in the order of their bindings, and a texture.
+    /// A bind group of a page's buffers in the order of their bindings.
     pub fn bind(
         &self,
         device: &wgpu::Device,
         label: &str,
         layout: &wgpu::BindGroupLayout,
         (kinds, page): (&[BufferKind], usize),
-        texture: Option<(u32, &wgpu::TextureView)>,
     ) -> wgpu::BindGroup {
-        let buffers = kinds
-            .iter()
-            .zip(0..)
-            .map(|(kind, binding)| wgpu::BindGroupEntry { binding, resource: self.resource(*kind, page) });
-        let textures = texture.map(|(binding, view)| wgpu::BindGroupEntry {
+        let entry = |(kind, binding): (&BufferKind, u32)| wgpu::BindGroupEntry {
             binding,
-            resource: wgpu::BindingResource::TextureView(view),
-        });
-        let entries: Vec<_> = buffers.chain(textures).collect();
+            resource: self.resource(*kind, page),
+        };
+        let entries: Vec<_> = kinds.iter().zip(0..).map(entry).collect();
         device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
     }
 

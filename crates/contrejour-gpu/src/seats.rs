@@ -89,7 +89,7 @@ impl Seats {
             let bindings = Bindings { shared, whose: Whose::Seat(seat) };
             SeatGroups {
                 extrusion: of_stages(&extrusion, Whose::Seat(seat)),
-                passes: passes.iter().map(|pass| pass.bind(device, &bindings, None, pages.len())).collect(),
+                passes: passes.iter().map(|pass| pass.bind_buffers(device, &bindings, pages.len())).collect(),
             }
         };
         let of_tests = of_stages(&tests, Whose::Bundle);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use contrejour_plan::{ViewChoice, VisibilityKind};
+use contrejour_plan::{EdgeProfile, ViewChoice, VisibilityKind};
 
 use crate::wgsl::wgsl;
 
@@ -21,6 +21,7 @@ const VSM_PCSS: &str = function!("visibility_moments_pcss", "blocker_search", "m
 const EVSM_PCSS: &str = function!("visibility_moments_pcss", "blocker_search", "moments", "moments_warped", "warp");
 const SMOOTHIES_SPLIT: &str = function!("visibility_smoothies", "receiver_texels", "smoothie_split");
 const SMOOTHIES_PACKED: &str = function!("visibility_smoothies", "receiver_texels", "smoothie_packed");
+const SILHOUETTE_MAP: &str = function!("visibility_silhouette_map", "blocker_search", "receiver_plane");
 
 const ONLY_VIEW: &str = wgsl!("shared/receiver_view_only");
 const CUBE_VIEWS: &str = wgsl!("shared/receiver_view_of_cube");
@@ -46,6 +47,7 @@ pub fn visibility_wgsl(kind: VisibilityKind, choice: ViewChoice, group: u32) -> 
         VisibilityKind::Variance { warped: true, from_light_size: true } => EVSM_PCSS,
         VisibilityKind::SmoothiesSplit => SMOOTHIES_SPLIT,
         VisibilityKind::SmoothiesPacked => SMOOTHIES_PACKED,
+        VisibilityKind::SilhouetteMap { .. } => SILHOUETTE_MAP,
     });
     text.push_str(match choice {
         ViewChoice::Only => ONLY_VIEW,
@@ -79,6 +81,10 @@ fn constants(kind: VisibilityKind) -> String {
         VisibilityKind::Pcss { blocker_samples, filter_samples } => {
             constant("BLOCKER_SAMPLES", format!("{blocker_samples}u"));
             constant("FILTER_SAMPLES", format!("{filter_samples}u"));
+        }
+        VisibilityKind::SilhouetteMap { samples, profile } => {
+            constant("SAMPLES", format!("{samples}u"));
+            constant("PROFILE_IS_DISK", (profile == EdgeProfile::Disk).to_string());
         }
         _ => {}
     }

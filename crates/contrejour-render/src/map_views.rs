@@ -48,6 +48,30 @@ pub(crate) fn alpha_view(alpha: &[f32], size: u32) -> MapView {
     }
 }
 
+/// Signed distances to silhouettes, where one is near, as two colours.
+pub(crate) fn distance_view(distances: &[f32], is_near: &[bool], size: u32) -> MapView {
+    let near = || distances.iter().zip(is_near).filter(|(_, is_near)| **is_near).map(|(distance, _)| distance.abs());
+    let farthest = near().fold(0.0, f32::max);
+    let picture = RgbaImage::from_fn(size, size, |x, y| {
+        let texel = y as usize * size as usize + x as usize;
+        let brightness =
+            (255.0 * (1.0 - 0.75 * distances[texel].abs() / farthest.max(f32::MIN_POSITIVE))).round() as u8;
+        image::Rgba(match (is_near[texel], distances[texel] > 0.0) {
+            (false, _) => [0, 0, 0, 255],
+            (true, true) => [brightness, brightness / 2, 0, 255],
+            (true, false) => [0, brightness / 2, brightness, 255],
+        })
+    });
+    let legend = if farthest > 0.0 {
+        format!(
+            "orange: inside a silhouette, blue: outside, bright at it, dark {farthest:.2} texels away; black: none is near"
+        )
+    } else {
+        "black: no silhouette is near".to_owned()
+    };
+    MapView { picture, legend }
+}
+
 fn grey_picture(values: &[f32], size: u32, grey: impl Fn(f32) -> u8) -> RgbaImage {
     RgbaImage::from_fn(size, size, |x, y| {
         let grey = grey(values[y as usize * size as usize + x as usize]);
@@ -75,6 +99,15 @@ mod tests {
         assert_eq!(greys(&depth_view(&[10.0; 4], 2, 10.0, 1.0)), [0; 4]);
         assert_eq!(greys(&depth_view(&[3.0; 4], 2, 10.0, 1.0)), [255; 4]);
         assert_eq!(greys(&depth_view(&[f32::NAN; 4], 2, 10.0, 1.0)), [0; 4]);
+    }
+
+    #[test]
+    fn distances_are_orange_inside_and_blue_outside() {
+        let view = distance_view(&[2.0, -1.0, 0.0, 0.0], &[true, true, true, false], 2);
+        let colors: Vec<[u8; 3]> = view.picture.pixels().map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        assert_eq!(colors, [[64, 32, 0], [0, 79, 159], [0, 127, 255], [0, 0, 0]]);
+        assert!(view.legend.contains("2.00 texels"), "{}", view.legend);
+        assert_eq!(distance_view(&[0.0], &[false], 1).legend, "black: no silhouette is near");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use image::RgbaImage;
 
 use crate::error::{DrawError, MAX_REPEATS};
 use crate::map_texels::read_texels;
-use crate::map_views::{MapView, alpha_view, depth_view};
+use crate::map_views::{MapView, alpha_view, depth_view, distance_view};
 use crate::readback::{ReadError, copied_buffer, read_picture};
 use crate::renderer::Renderer;
 use crate::silhouette_lines::SilhouetteLines;
@@ -114,6 +114,13 @@ impl Renderer {
         }
         if let Some(map) = maps.smoothie_alpha {
             push("smoothie_alpha", alpha_view(&channel(&texels((map, index))?, 0), map.width()));
+        }
+        if let Some(map) = maps.silhouette_map {
+            let texels = texels((map, index))?;
+            let depth = linear(channel(&texels, 0));
+            push("silhouette_depth", depth_view(&depth, map.width()));
+            let is_near: Vec<bool> = depth.iter().map(|&depth| depth < depths[1] as f32).collect();
+            push("signed_distance", distance_view(&channel(&texels, 1), &is_near, map.width()));
         }
         Ok(views)
     }

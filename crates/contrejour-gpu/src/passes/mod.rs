@@ -6,6 +6,8 @@ mod masked_hardware_shadow_map;
 mod masked_shadow_map;
 mod moments;
 mod shadow_map;
+mod silhouette_map;
+mod silhouette_map_tam;
 mod smoothie_alpha;
 mod smoothie_buffer;
 mod smoothie_depth;
@@ -101,7 +103,7 @@ pub enum DepthKept {
 }
 
 /// All passes over a light view's maps, in the order in which a frame runs them.
-pub const ALL: [MapPass; 9] = [
+pub const ALL: [MapPass; 11] = [
     hardware_shadow_map::HARDWARE_SHADOW_MAP,
     shadow_map::SHADOW_MAP,
     masked_hardware_shadow_map::MASKED_HARDWARE_SHADOW_MAP,
@@ -111,6 +113,8 @@ pub const ALL: [MapPass; 9] = [
     smoothie_depth::SMOOTHIE_DEPTH,
     smoothie_alpha::SMOOTHIE_ALPHA,
     smoothie_buffer::SMOOTHIE_BUFFER,
+    silhouette_map::SILHOUETTE_MAP,
+    silhouette_map_tam::SILHOUETTE_MAP_TAM,
 ];
 
 const SHADOW_MAP_WGSL: &str =
@@ -138,4 +142,6 @@ pub(crate) const MODULES: &[ShaderModule] = &[
     ShaderModule::of("moments", moments::MOMENTS.wgsl),
     ShaderModule::of("blurred_moments", blurred_moments::BLURRED_MOMENTS.wgsl),
     ShaderModule::of("smoothie_buffer", SMOOTHIE_WGSL),
+    ShaderModule::of("silhouette_map", silhouette_map::SILHOUETTE_MAP.wgsl),
+    ShaderModule::of("silhouette_map_tam", silhouette_map_tam::SILHOUETTE_MAP_TAM.wgsl),
 ];

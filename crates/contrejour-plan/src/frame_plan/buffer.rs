@@ -11,6 +11,8 @@ pub enum BufferKind {
     Positions,
     /// Faces of all meshes.
     Faces,
+    /// What is across the edges of the faces of all meshes.
+    FaceNeighbours,
     /// Planes of the faces of all meshes.
     Planes,
     /// Edges of all meshes that can be in a silhouette.
@@ -108,9 +110,10 @@ const BINDING_ALIGNMENT: u64 = 256;
 
 impl BufferKind {
     /// All buffers.
-    pub const ALL: [Self; 33] = [
+    pub const ALL: [Self; 34] = [
         Self::Positions,
         Self::Faces,
+        Self::FaceNeighbours,
         Self::Planes,
         Self::Edges,
         Self::Incidences,
@@ -149,6 +152,7 @@ impl BufferKind {
         match self {
             Self::Positions => "positions",
             Self::Faces => "faces",
+            Self::FaceNeighbours => "face_neighbours",
             Self::Planes => "planes",
             Self::Edges => "edges",
             Self::Incidences => "incidences",
@@ -229,6 +233,7 @@ impl BufferKind {
             | Self::OutlineSides => 4,
             Self::Masks => size_of::<layout::Mask>(),
             Self::Faces => size_of::<layout::Face>(),
+            Self::FaceNeighbours => size_of::<layout::FaceNeighbours>(),
             Self::Planes => size_of::<[f32; 4]>(),
             Self::Edges => size_of::<layout::Edge>(),
             Self::Casters => size_of::<layout::Caster>(),

@@ -2,9 +2,12 @@
 
 use super::plan::has_size;
 use super::{BufferKind, CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
-use crate::{DepthPrecision, ObjectBox, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, object_light};
+use crate::{
+    DepthPrecision, ObjectBox, SilhouetteSource, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique,
+    object_light,
+};
 
-/// The passes that one technique or another can do without, smoothies apart, and why; masked ones as those that they follow.
+/// The passes that one technique or another can do without, those of outlines apart, and why; masked ones as those that they follow.
 const MAP_PASSES: [Pass; 4] = [Pass::HardwareShadowMap, Pass::ShadowMap, Pass::Moments, Pass::BlurredMoments];
 const MASKED_PASSES: [Pass; 2] = [Pass::MaskedHardwareShadowMap, Pass::MaskedShadowMap];
 const WITHOUT_MAP_PASS: [Reason; 4] = [
@@ -32,33 +35,72 @@ impl LeftOutList {
     }
 }
 
-/// The smoothies of the frame, where there is any reason to make them.
-pub(super) fn smoothies_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList) -> Option<SmoothieSettings> {
-    let reason = match input.settings.technique {
-        _ if input.outputs == Outputs::Silhouettes => Reason::OnlySilhouettesWanted,
-        Technique::Smoothies(_) if nothing_casts(input.scene) => Reason::NothingCasts,
-        Technique::Smoothies(_) if !has_silhouettes(input.scene) => Reason::MasksCutAll,
-        Technique::Smoothies(smoothies) => {
-            if smoothies.width != SmoothieWidth::FromLightSize || has_size(input) {
-                return Some(smoothies);
-            }
-            Reason::LightHasNoSize
-        }
-        _ => Reason::TechniqueHasNoSmoothies,
+/// What a frame draws of its casters' outlines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Outlines {
+    Smoothies(SmoothieSettings),
+    SilhouetteMap(SilhouetteSource),
+}
+
+/// The outlines of the frame, where there is any reason to draw them.
+pub(super) fn outlines_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList) -> Option<Outlines> {
+    let asked_for = match input.settings.technique {
+        Technique::Smoothies(smoothies) => Some(Outlines::Smoothies(smoothies)),
+        Technique::SilhouetteMap(silhouettes) => Some(Outlines::SilhouetteMap(silhouettes.source)),
+        _ => None,
     };
-    left_out.add(Omitted::ExtrusionStages, reason);
-    left_out.add(Omitted::SmoothiePasses, reason);
-    // Silhouettes serve the smoothies, or are wanted for themselves.
-    if input.outputs != Outputs::Silhouettes {
-        left_out.add(Omitted::DetectionStages, reason);
+    let needs_size = matches!(asked_for, Some(Outlines::Smoothies(of)) if of.width == SmoothieWidth::FromLightSize);
+    let reason = match asked_for {
+        _ if input.outputs == Outputs::Silhouettes => Some(Reason::OnlySilhouettesWanted),
+        None => None,
+        Some(_) if nothing_casts(input.scene) => Some(Reason::NothingCasts),
+        Some(_) if !has_silhouettes(input.scene) => Some(Reason::MasksCutAll),
+        Some(_) if needs_size && !has_size(input) => Some(Reason::LightHasNoSize),
+        Some(_) => None,
+    };
+    let wanted = asked_for.filter(|_| reason.is_none());
+    let is_smoothies = matches!(asked_for, Some(Outlines::Smoothies(_)));
+    let is_silhouette_map = matches!(asked_for, Some(Outlines::SilhouetteMap(_)));
+    if !matches!(wanted, Some(Outlines::Smoothies(_))) {
+        let reason = reason.filter(|_| is_smoothies || input.outputs == Outputs::Silhouettes);
+        left_out.add(Omitted::SmoothiePasses, reason.unwrap_or(Reason::TechniqueHasNoSmoothies));
     }
-    None
+    if !matches!(wanted, Some(Outlines::SilhouetteMap(_))) {
+        let reason = reason.filter(|_| is_silhouette_map || input.outputs == Outputs::Silhouettes);
+        left_out.add(Omitted::SilhouettePasses, reason.unwrap_or(Reason::TechniqueHasNoSilhouetteMap));
+    }
+    match wanted {
+        Some(Outlines::Smoothies(_)) => {}
+        Some(Outlines::SilhouetteMap(SilhouetteSource::Stages)) => {
+            left_out.add(Omitted::CornerStage, Reason::QuadsReachAroundEnds);
+            left_out.add(Omitted::Pass(Pass::SilhouetteMapTam), Reason::StagesFindThem);
+        }
+        Some(Outlines::SilhouetteMap(SilhouetteSource::Faces)) => {
+            left_out.add(Omitted::DetectionStages, Reason::VertexStageFindsThem);
+            left_out.add(Omitted::ExtrusionStages, Reason::VertexStageFindsThem);
+            left_out.add(Omitted::Pass(Pass::SilhouetteMap), Reason::VertexStageFindsThem);
+        }
+        None => {
+            let reason = reason.unwrap_or(Reason::TechniqueHasNoSilhouettes);
+            left_out.add(Omitted::ExtrusionStages, reason);
+            // Silhouettes serve what is drawn of them, or are wanted for themselves.
+            if input.outputs != Outputs::Silhouettes {
+                left_out.add(Omitted::DetectionStages, reason);
+            }
+        }
+    }
+    wanted
 }
 
 /// The compute stages of the frame.
-pub(super) fn stages(input: &PlanInput<'_>, has_smoothies: bool, left_out: &mut LeftOutList) -> Vec<Stage> {
-    if has_smoothies {
-        return Stage::ALL.to_vec();
+pub(super) fn stages(input: &PlanInput<'_>, outlines: Option<&Outlines>, left_out: &mut LeftOutList) -> Vec<Stage> {
+    match outlines {
+        Some(Outlines::Smoothies(_)) => return Stage::ALL.to_vec(),
+        Some(Outlines::SilhouetteMap(SilhouetteSource::Stages)) => {
+            return Stage::ALL.into_iter().filter(|stage| *stage != Stage::BuildCorners).collect();
+        }
+        Some(Outlines::SilhouetteMap(SilhouetteSource::Faces)) => return Stage::PLACEMENT.to_vec(),
+        None => {}
     }
     if nothing_casts(input.scene) {
         left_out.add(Omitted::PlacementStages, Reason::NothingCasts);
@@ -79,11 +121,7 @@ pub(super) fn stages(input: &PlanInput<'_>, has_smoothies: bool, left_out: &mut 
 }
 
 /// The raster passes of the frame.
-pub(super) fn passes(
-    input: &PlanInput<'_>,
-    smoothies: Option<&SmoothieSettings>,
-    left_out: &mut LeftOutList,
-) -> Vec<Pass> {
+pub(super) fn passes(input: &PlanInput<'_>, outlines: Option<&Outlines>, left_out: &mut LeftOutList) -> Vec<Pass> {
     if input.outputs == Outputs::Silhouettes {
         for pass in MAP_PASSES.into_iter().chain([Pass::Visibility]) {
             left_out.add(Omitted::Pass(pass), Reason::OnlySilhouettesWanted);
@@ -95,9 +133,13 @@ pub(super) fn passes(
     let mut passes = Vec::new();
     let is_masked = masked_casters(input.scene).next().is_some();
     let with_masked = |pass, masked| if is_masked { vec![pass, masked] } else { vec![pass] };
-    if let Some(smoothies) = smoothies {
+    if let Some(outlines) = outlines {
         passes.extend(with_masked(Pass::ShadowMap, Pass::MaskedShadowMap));
-        passes.extend(smoothie_passes(input, smoothies, left_out));
+        match outlines {
+            Outlines::Smoothies(smoothies) => passes.extend(smoothie_passes(input, smoothies, left_out)),
+            Outlines::SilhouetteMap(SilhouetteSource::Stages) => passes.push(Pass::SilhouetteMap),
+            Outlines::SilhouetteMap(SilhouetteSource::Faces) => passes.push(Pass::SilhouetteMapTam),
+        }
     } else if let Technique::Variance(_) = input.settings.technique {
         passes.extend(with_masked(Pass::ShadowMap, Pass::MaskedShadowMap));
         passes.extend([Pass::Moments, Pass::BlurredMoments]);

@@ -26,8 +26,12 @@ pub enum Omitted {
     DetectionStages,
     /// The stages that make quads and corners, with their buffers.
     ExtrusionStages,
+    /// The stage that makes corners, with its buffers.
+    CornerStage,
     /// All smoothie passes, with their textures.
     SmoothiePasses,
+    /// The passes that draw silhouettes, with their textures.
+    SilhouettePasses,
     /// Both passes that draw masked faces, with the masks.
     MaskedPasses,
     /// One pass, with its textures.
@@ -62,6 +66,16 @@ pub enum Omitted {
 pub enum Reason {
     /// The technique makes no smoothies.
     TechniqueHasNoSmoothies,
+    /// The technique makes no silhouette map.
+    TechniqueHasNoSilhouetteMap,
+    /// The technique looks at no silhouettes.
+    TechniqueHasNoSilhouettes,
+    /// Compute stages find silhouettes.
+    StagesFindThem,
+    /// The vertex stage of the pass finds silhouettes.
+    VertexStageFindsThem,
+    /// Quads that reach around the ends of their edges leave no gap.
+    QuadsReachAroundEnds,
     /// The shadow is as soft as the light's size asks, and it has none.
     LightHasNoSize,
     /// The technique reads no moments of depth.
@@ -120,7 +134,9 @@ impl fmt::Display for Omitted {
             Self::PlacementStages => "placement stages",
             Self::DetectionStages => "detection stages",
             Self::ExtrusionStages => "extrusion stages",
+            Self::CornerStage => "corner stage",
             Self::SmoothiePasses => "smoothie passes",
+            Self::SilhouettePasses => "silhouette map",
             Self::MaskedPasses => "masked passes",
             Self::Pass(pass) => return formatter.pad(&format!("pass {}", pass.name())),
             Self::CasterWork(name) => return formatter.pad(&format!("work of caster {name}")),
@@ -142,6 +158,11 @@ impl fmt::Display for Reason {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {
             Self::TechniqueHasNoSmoothies => "the technique makes no smoothies",
+            Self::TechniqueHasNoSilhouetteMap => "the technique makes no silhouette map",
+            Self::TechniqueHasNoSilhouettes => "the technique looks at no silhouettes",
+            Self::StagesFindThem => "compute stages find silhouettes",
+            Self::VertexStageFindsThem => "the vertex stage finds silhouettes",
+            Self::QuadsReachAroundEnds => "quads reach around the ends of their edges",
             Self::LightHasNoSize => "the shadow is as soft as the light's size asks, and it has none",
             Self::TechniqueHasNoMoments => "the technique reads no moments of depth",
             Self::LinearDepthIsRead => "linear depth is what is read",

@@ -26,13 +26,17 @@ pub enum Pass {
     SmoothieAlpha,
     /// Nearest smoothie depth and least alpha at once, where the device blends 32-bit floats.
     SmoothieBuffer,
+    /// Signed distance to silhouettes and their depth, from quads.
+    SilhouetteMap,
+    /// The same, from faces that the vertex stage finds to have outline edges.
+    SilhouetteMapTam,
     /// Visibility of each pixel of the caller's depth buffer, in a target of the caller's.
     Visibility,
 }
 
 impl Pass {
     /// All passes in the order in which a frame runs them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::HardwareShadowMap,
         Self::ShadowMap,
         Self::MaskedHardwareShadowMap,
@@ -42,6 +46,8 @@ impl Pass {
         Self::SmoothieDepth,
         Self::SmoothieAlpha,
         Self::SmoothieBuffer,
+        Self::SilhouetteMap,
+        Self::SilhouetteMapTam,
         Self::Visibility,
     ];
 
@@ -57,6 +63,8 @@ impl Pass {
             Self::SmoothieDepth => "smoothie_depth",
             Self::SmoothieAlpha => "smoothie_alpha",
             Self::SmoothieBuffer => "smoothie_buffer",
+            Self::SilhouetteMap => "silhouette_map",
+            Self::SilhouetteMapTam => "silhouette_map_tam",
             Self::Visibility => "visibility",
         }
     }
@@ -73,6 +81,10 @@ impl Pass {
             Self::Moments => &[LightView],
             Self::BlurredMoments => &[],
             Self::SmoothieDepth | Self::SmoothieAlpha | Self::SmoothieBuffer => &[LightView, Quads, Corners, DrawArgs],
+            Self::SilhouetteMap => &[LightView, Quads, DrawArgs],
+            Self::SilhouetteMapTam => {
+                &[LightView, FaceItems, Casters, CasterLights, Faces, FaceNeighbours, Positions, DrawArgs]
+            }
             Self::Visibility => &[ReceiverView],
         }
     }
@@ -86,6 +98,7 @@ impl Pass {
             Self::SmoothieDepth => &[TextureKind::SmoothieDepth],
             Self::SmoothieAlpha => &[TextureKind::SmoothieAlpha],
             Self::SmoothieBuffer => &[TextureKind::SmoothieBuffer],
+            Self::SilhouetteMap | Self::SilhouetteMapTam => &[TextureKind::SilhouetteMap, TextureKind::SilhouetteOrder],
             // Its levels are those of the texture that the pass before made.
             Self::BlurredMoments | Self::Visibility => &[],
             // They draw over what the pass before made.

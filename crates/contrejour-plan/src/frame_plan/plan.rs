@@ -1,6 +1,6 @@
 //! The frame plan and how it is made.
 
-use super::decide::{LeftOutList, casting, lacks_planes, note_masked, passes, smoothies_wanted, stages};
+use super::decide::{LeftOutList, casting, lacks_planes, note_masked, outlines_wanted, passes, stages};
 use super::page::{Page, pages};
 use super::room::{kept, with_room};
 use super::seats::{most_items_with, seats, wanted_seats};
@@ -88,9 +88,9 @@ impl FramePlan {
         let mut left_out = LeftOutList::default();
 
         // Decide what runs.
-        let smoothies = smoothies_wanted(input, &mut left_out);
-        let stages = stages(input, smoothies.is_some(), &mut left_out);
-        let passes = passes(input, smoothies.as_ref(), &mut left_out);
+        let outlines = outlines_wanted(input, &mut left_out);
+        let stages = stages(input, outlines.as_ref(), &mut left_out);
+        let passes = passes(input, outlines.as_ref(), &mut left_out);
         let visibility = VisibilityKind::of(&settings.technique, &passes, has_size(input));
         let limit = device.max_texture_dimension_2d;
         if !passes.is_empty() && settings.map_size > limit {

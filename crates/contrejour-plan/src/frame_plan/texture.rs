@@ -20,6 +20,10 @@ pub enum TextureKind {
     SmoothieBuffer,
     /// Moments of depth, with all levels.
     Moments,
+    /// Depth of the nearest silhouette and signed distance to it.
+    SilhouetteMap,
+    /// By what the nearest silhouette wins; only while they are drawn.
+    SilhouetteOrder,
 }
 
 /// What a texel holds.
@@ -71,6 +75,8 @@ impl TextureKind {
             Self::SmoothieAlpha => "smoothie_alpha",
             Self::SmoothieBuffer => "smoothie_buffer",
             Self::Moments => "moments",
+            Self::SilhouetteMap => "silhouette_map",
+            Self::SilhouetteOrder => "silhouette_order",
         }
     }
 
@@ -82,9 +88,11 @@ impl TextureKind {
         };
         match self {
             Self::ShadowDepth => by_precision(TextureFormat::R16Float, TextureFormat::R32Float),
-            Self::ShadowHardwareDepth | Self::SmoothieDepth => TextureFormat::Depth32Float,
+            Self::ShadowHardwareDepth | Self::SmoothieDepth | Self::SilhouetteOrder => TextureFormat::Depth32Float,
             Self::SmoothieAlpha => TextureFormat::R16Float,
-            Self::SmoothieBuffer => by_precision(TextureFormat::Rg16Float, TextureFormat::Rg32Float),
+            Self::SmoothieBuffer | Self::SilhouetteMap => {
+                by_precision(TextureFormat::Rg16Float, TextureFormat::Rg32Float)
+            }
             Self::Moments => {
                 let warped = settings.technique.is_warped();
                 match (warped, settings.moments_have_32_bits(device)) {
@@ -171,7 +179,9 @@ mod tests {
 
     #[test]
     fn half_the_precision_is_half_the_memory() {
-        for kind in [TextureKind::ShadowDepth, TextureKind::SmoothieBuffer, TextureKind::Moments] {
+        for kind in
+            [TextureKind::ShadowDepth, TextureKind::SmoothieBuffer, TextureKind::Moments, TextureKind::SilhouetteMap]
+        {
             let bytes = |depth_precision| {
                 let settings = ShadowSettings { depth_precision, ..ShadowSettings::default() };
                 let device = DeviceFacts { float32_filterable: true, ..DeviceFacts::default() };

@@ -1,7 +1,7 @@
 //! Which visibility function a frame's receivers call.
 
 use super::{Pass, TextureKind};
-use crate::{CubeFace, GaussianKernel, LightKind, Technique, VarianceSoftness};
+use crate::{CubeFace, EdgeProfile, GaussianKernel, LightKind, Technique, VarianceSoftness};
 
 /// What the visibility function is, and so which maps it reads. Where it changes, the function's text and its bind group
 /// layout do: a caller keeps one pipeline for each kind that it meets.
@@ -33,6 +33,13 @@ pub enum VisibilityKind {
     SmoothiesSplit,
     /// Shadow map and smoothie buffer.
     SmoothiesPacked,
+    /// Shadow map and silhouette map.
+    SilhouetteMap {
+        /// Places at which a soft edge is looked up.
+        samples: u32,
+        /// How it goes from dark to lit.
+        profile: EdgeProfile,
+    },
 }
 
 /// How receivers find the view of a light that shows them. Like a [`VisibilityKind`], it shapes the function's text.
@@ -98,6 +105,10 @@ impl VisibilityKind {
         Some(match technique {
             _ if has(Pass::SmoothieBuffer) => Self::SmoothiesPacked,
             _ if has(Pass::SmoothieAlpha) => Self::SmoothiesSplit,
+            Technique::SilhouetteMap(silhouettes) if has(Pass::SilhouetteMap) || has(Pass::SilhouetteMapTam) => {
+                let samples = if light_has_size { silhouettes.samples } else { 1 };
+                Self::SilhouetteMap { samples, profile: silhouettes.profile }
+            }
             Technique::ShadowMap => Self::Compared(MapSampler::CompareNearest),
             Technique::GaussianPcf(gaussian) => Self::GaussianPcf(gaussian.kernel),
             Technique::BicubicPcf => Self::BicubicPcf,
@@ -108,7 +119,9 @@ impl VisibilityKind {
                 warped: variance.is_warped(),
                 from_light_size: matches!(variance.softness, VarianceSoftness::FromLightSize { .. }),
             },
-            Technique::Pcf | Technique::Pcss(_) | Technique::Smoothies(_) => Self::Compared(MapSampler::CompareLinear),
+            Technique::Pcf | Technique::Pcss(_) | Technique::Smoothies(_) | Technique::SilhouetteMap(_) => {
+                Self::Compared(MapSampler::CompareLinear)
+            }
         })
     }
 
@@ -122,6 +135,8 @@ impl VisibilityKind {
             Self::Pcss { blocker_samples: 8, filter_samples: 8 },
             Self::SmoothiesSplit,
             Self::SmoothiesPacked,
+            Self::SilhouetteMap { samples: 1, profile: EdgeProfile::Linear },
+            Self::SilhouetteMap { samples: 4, profile: EdgeProfile::Disk },
         ];
         compared.into_iter().chain(GaussianKernel::ALL.map(Self::GaussianPcf)).chain(variance).chain(others)
     }
@@ -135,6 +150,7 @@ impl VisibilityKind {
             Self::Variance { .. } => &[TextureKind::Moments],
             Self::SmoothiesSplit => &[TextureKind::ShadowDepth, TextureKind::SmoothieDepth, TextureKind::SmoothieAlpha],
             Self::SmoothiesPacked => &[TextureKind::ShadowDepth, TextureKind::SmoothieBuffer],
+            Self::SilhouetteMap { .. } => &[TextureKind::ShadowDepth, TextureKind::SilhouetteMap],
         }
     }
 
@@ -145,7 +161,7 @@ impl VisibilityKind {
             Self::BicubicPcf => Some(MapSampler::CompareNearest),
             Self::GaussianPcf(_) | Self::Pcss { .. } => Some(MapSampler::CompareLinear),
             Self::Variance { .. } => Some(MapSampler::Trilinear),
-            Self::SmoothiesSplit | Self::SmoothiesPacked => None,
+            Self::SmoothiesSplit | Self::SmoothiesPacked | Self::SilhouetteMap { .. } => None,
         }
     }
 }

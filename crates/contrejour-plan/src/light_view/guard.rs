@@ -53,6 +53,10 @@ pub(super) fn guard_of_size(penumbra_ndc: f64, outline: LightOutline, settings: 
             let least = MIN_WIDTH_TEXELS * 2.0 / f64::from(settings.map_size);
             reach_ndc = width.min(smoothies.width_max_ndc.into()).max(least);
         }
+        Technique::SilhouetteMap(silhouettes) => {
+            let least = f64::from(silhouettes.least_reach_texels()) * 2.0 / f64::from(settings.map_size);
+            reach_ndc = penumbra_ndc.min(silhouettes.width_max_ndc.into()).max(least);
+        }
     }
     if outline == LightOutline::Sphere {
         reach_ndc = sphere_reach_ndc(reach_ndc);

@@ -4,7 +4,7 @@ use contrejour_layout::{LightView, ReceiverView, VIEW_CULLS, VIEW_PANCAKES, VIEW
 
 use super::caster_place::words_of;
 use super::{CastersInFront, Projection, View};
-use crate::{DepthPrecision, ShadowSettings, SmoothieSettings, SmoothieWidth, Technique, VarianceSoftness};
+use crate::{DepthPrecision, ShadowSettings, SmoothieWidth, Technique, VarianceSoftness};
 
 /// The smallest smoothie width: less, and the rim falls between texels.
 pub(super) const MIN_WIDTH_TEXELS: f64 = 1.5;
@@ -32,7 +32,7 @@ pub struct ViewCounts {
     pub corners: u32,
 }
 
-/// The smoothie width at a blocker's q is `clamp(per_q * (q_max - q), min, max)`, in NDC.
+/// The width of a smoothie, or of the band of a silhouette map on one side, at a blocker's q is `clamp(per_q * (q_max - q), min, max)`, in NDC.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct WidthTerms {
     per_q: f64,
@@ -43,10 +43,7 @@ struct WidthTerms {
 impl View {
     /// What the compute stages and the raster passes of the maps need.
     pub fn light_view(&self, settings: &ShadowSettings, counts: &ViewCounts) -> LightView {
-        let width = match &settings.technique {
-            Technique::Smoothies(smoothies) => self.width_terms(smoothies, settings.map_size),
-            _ => WidthTerms::default(),
-        };
+        let width = self.width_terms(settings).unwrap_or_default();
         LightView {
             perspective: self.is_perspective(),
             map_size: settings.map_size,
@@ -113,6 +110,10 @@ impl View {
                 record.min_variance = variance.min_variance;
                 record.warp_exponent = variance.warp_exponent;
             }
+            Technique::SilhouetteMap(silhouettes) => {
+                record.search_max_ndc = silhouettes.width_max_ndc;
+                record.edge_texels = silhouettes.edge_texels;
+            }
             _ => {}
         }
         record
@@ -130,16 +131,13 @@ impl View {
     /// How far outside the frustum's sides a caster still matters, in NDC: it may have a smoothie in the map, and filters
     /// look there.
     pub fn reach_ndc(&self, settings: &ShadowSettings) -> f64 {
-        let widest = match &settings.technique {
-            Technique::Smoothies(smoothies) => self.widest_smoothie_ndc(smoothies, settings.map_size),
-            _ => 0.0,
-        };
-        widest + GUARD_TEXELS * 2.0 / f64::from(settings.map_size)
+        self.widest_edge_ndc(settings) + GUARD_TEXELS * 2.0 / f64::from(settings.map_size)
     }
 
-    /// The widest smoothie that a blocker anywhere between near and far, or in front of a cascade, can have, in NDC.
-    pub fn widest_smoothie_ndc(&self, smoothies: &SmoothieSettings, map_size: u32) -> f64 {
-        let width = self.width_terms(smoothies, map_size);
+    /// How far from its silhouette the technique draws, at most, for a blocker anywhere between near and far, or in front
+    /// of a cascade: the widest smoothie, or the farthest distance in a silhouette map. Unit: NDC. 0 for other techniques.
+    pub fn widest_edge_ndc(&self, settings: &ShadowSettings) -> f64 {
+        let Some(width) = self.width_terms(settings) else { return 0.0 };
         if self.casters_in_front == CastersInFront::Pancaked && width.per_q > 0.0 {
             return self.widest_ndc(width.max);
         }
@@ -147,14 +145,22 @@ impl View {
         self.widest_ndc(unclamped.clamp(width.min, width.max))
     }
 
-    fn width_terms(&self, smoothies: &SmoothieSettings, map_size: u32) -> WidthTerms {
-        let min = MIN_WIDTH_TEXELS * 2.0 / f64::from(map_size);
-        // On tiny maps one and a half texels can be more than the largest width.
-        let max = f64::from(smoothies.width_max_ndc).max(min);
-        match smoothies.width {
+    fn width_terms(&self, settings: &ShadowSettings) -> Option<WidthTerms> {
+        let (min_texels, max, width) = match &settings.technique {
+            Technique::Smoothies(smoothies) => (MIN_WIDTH_TEXELS, smoothies.width_max_ndc, smoothies.width),
+            Technique::SilhouetteMap(silhouettes) => {
+                let reach = silhouettes.least_reach_texels().into();
+                (reach, silhouettes.width_max_ndc, SmoothieWidth::FromLightSize)
+            }
+            _ => return None,
+        };
+        let min = min_texels * 2.0 / f64::from(settings.map_size);
+        // On tiny maps some texels can be more than the largest width.
+        let max = f64::from(max).max(min);
+        Some(match width {
             SmoothieWidth::Ndc(given) => WidthTerms { per_q: 0.0, min: f64::from(given).clamp(min, max), max },
             SmoothieWidth::FromLightSize => WidthTerms { per_q: self.light_size, min, max },
-        }
+        })
     }
 
     fn is_perspective(&self) -> u32 {
@@ -173,7 +179,7 @@ fn rows_of<const N: usize, const ROWS: usize>(numbers: [f64; N]) -> [[u32; 4]; R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DepthBias, Light, LightKind, views};
+    use crate::{DepthBias, Light, LightKind, SmoothieSettings, views};
     use glam::{DVec3, Mat4, Vec4};
 
     fn spot() -> View {
@@ -252,8 +258,7 @@ mod tests {
         for view in [spot(), sun()] {
             for width in [SmoothieWidth::Ndc(0.02), SmoothieWidth::FromLightSize] {
                 let settings = settings(width);
-                let Technique::Smoothies(smoothies) = settings.technique else { panic!("made above") };
-                let widest = view.widest_smoothie_ndc(&smoothies, 1024);
+                let widest = view.widest_edge_ndc(&settings);
                 let record = view.light_view(&settings, &ViewCounts::default());
                 for step in 1..=100 {
                     let share = f64::from(step) / 100.0;

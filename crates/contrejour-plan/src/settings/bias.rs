@@ -20,6 +20,7 @@ pub struct DepthBias {
     pub normal_texels: f32,
     /// How far behind a smoothie its receiver must lie for the smoothie to be kept. Too little: rounding lets smoothies
     /// darken the caster's own lit side. Too much: the soft edge sets in late where a caster touches its receiver.
+    /// In a silhouette map, how far behind what is just outside of it a silhouette may lie and not be hidden by it.
     /// Range: 0 and up. Default: 1.
     pub smoothie_texels: f32,
 }

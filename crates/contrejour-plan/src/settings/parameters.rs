@@ -4,8 +4,8 @@ use core::fmt;
 use core::ops::Bound;
 
 use super::{
-    GaussianKernel, GaussianPcfSettings, PcssSettings, SettingsError, SmoothieSettings, SmoothieWidth, Technique,
-    VarianceSettings, VarianceSoftness,
+    GaussianKernel, GaussianPcfSettings, PcssSettings, SettingsError, SilhouetteMapSettings, SmoothieSettings,
+    SmoothieWidth, Technique, VarianceSettings, VarianceSoftness,
 };
 
 /// A number that a technique can be tuned by.
@@ -157,6 +157,11 @@ impl Technique {
             Self::Smoothies(SmoothieSettings { width, width_max_ndc, .. }) => {
                 vec![("width_ndc", NDC, Slot::Width(width)), ("width_max_ndc", NDC, Slot::Number(width_max_ndc))]
             }
+            Self::SilhouetteMap(SilhouetteMapSettings { edge_texels, width_max_ndc, samples, .. }) => vec![
+                ("edge_texels", ParameterRange::Above(0.0, 4.0), Slot::Number(edge_texels)),
+                ("width_max_ndc", NDC, Slot::Number(width_max_ndc)),
+                ("samples", SAMPLES, Slot::Count(samples)),
+            ],
         }
     }
 }

@@ -3,7 +3,10 @@
 use core::fmt;
 use core::str::FromStr;
 
-use super::{GaussianPcfSettings, PcssSettings, SmoothieSettings, VarianceSettings, VarianceSoftness};
+use super::{
+    GaussianPcfSettings, PcssSettings, SilhouetteMapSettings, SilhouetteSource, SmoothieSettings, VarianceSettings,
+    VarianceSoftness,
+};
 
 /// How a light's shadow is made. Default: smoothies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +32,9 @@ pub enum Technique {
     Variance(VarianceSettings),
     /// Smoothies (Chan and Durand 2003): soft shadows whose outer penumbra grows with the distance from the caster.
     Smoothies(SmoothieSettings),
+    /// Silhouette maps (Valient and Bujnak 2005): signed distances to silhouettes beside the depths, for exact hard shadows
+    /// and for soft ones in few look-ups.
+    SilhouetteMap(SilhouetteMapSettings),
 }
 
 /// A name that no technique has.
@@ -41,7 +47,7 @@ pub struct UnknownTechnique {
 
 impl Technique {
     /// The names of all techniques.
-    pub const NAMES: [&str; 10] = [
+    pub const NAMES: [&str; 12] = [
         "shadow-map",
         "pcf",
         "gaussian-pcf",
@@ -52,6 +58,8 @@ impl Technique {
         "vsm-pcss",
         "evsm-pcss",
         "smoothies",
+        "silhouette-map",
+        "silhouette-map-tam",
     ];
 
     /// Whether it reads moments of warped depth.
@@ -74,6 +82,8 @@ impl Technique {
                 (true, VarianceSoftness::FromLightSize { .. }) => "evsm-pcss",
             },
             Self::Smoothies(_) => "smoothies",
+            Self::SilhouetteMap(SilhouetteMapSettings { source: SilhouetteSource::Stages, .. }) => "silhouette-map",
+            Self::SilhouetteMap(SilhouetteMapSettings { source: SilhouetteSource::Faces, .. }) => "silhouette-map-tam",
         }
     }
 }
@@ -106,6 +116,8 @@ impl FromStr for Technique {
             "vsm-pcss" => Self::Variance(VarianceSettings::VSM_PCSS),
             "evsm-pcss" => Self::Variance(VarianceSettings::EVSM_PCSS),
             "smoothies" => Self::Smoothies(SmoothieSettings::DEFAULT),
+            "silhouette-map" => Self::SilhouetteMap(SilhouetteMapSettings::DEFAULT),
+            "silhouette-map-tam" => Self::SilhouetteMap(SilhouetteMapSettings::TAM),
             _ => return Err(UnknownTechnique { name: name.to_owned() }),
         })
     }

@@ -1,12 +1,13 @@
 //! The sections `shadow`: the scene's, and those of its lights.
 
-use contrejour_plan::{AlphaRemap, DepthPrecision, SettingsError, ShadowSettings, Technique};
+use contrejour_plan::{AlphaRemap, DepthPrecision, EdgeProfile, SettingsError, ShadowSettings, Technique};
 
 use super::value::{ANY, NOT_NEGATIVE, Value};
 use crate::{Problem, SceneError};
 
 const PRESETS: &[&str] = &["low", "medium", "high", "ultra"];
 const REMAPS: &[&str] = &["contact", "off"];
+const PROFILES: &[&str] = &["linear", "disk"];
 const KEYS: &[&str] = &[
     "technique",
     "preset",
@@ -17,6 +18,7 @@ const KEYS: &[&str] = &[
     "bias_normal_texels",
     "bias_smoothie_texels",
     "remap",
+    "profile",
     "width_ndc",
     "width_max_ndc",
     "kernel",
@@ -27,9 +29,11 @@ const KEYS: &[&str] = &[
     "warp_exponent",
     "bleed_cut",
     "min_variance",
+    "edge_texels",
+    "samples",
 ];
 /// Those of the keys that are parameters of one technique or another.
-const PARAMETERS: &[&str] = KEYS.split_at(9).1;
+const PARAMETERS: &[&str] = KEYS.split_at(10).1;
 /// The largest side of a texture that devices commonly offer.
 const MAX_MAP_SIZE: u32 = 16_384;
 
@@ -53,14 +57,26 @@ pub(super) fn read_shadow(value: &Value<'_>, base: ShadowSettings) -> Result<Sha
             technique.set(key, value.number(ANY)?).map_err(|error| value.refuse(error.into()))?;
         }
     }
-    for key in ["remap", "bias_smoothie_texels"] {
-        if let Some(value) = section.get(key).filter(|_| !matches!(technique, Technique::Smoothies(_))) {
+    let has_smoothies = matches!(technique, Technique::Smoothies(_));
+    let has_silhouette_map = matches!(technique, Technique::SilhouetteMap(_));
+    let keys = [
+        ("remap", has_smoothies),
+        ("profile", has_silhouette_map),
+        ("bias_smoothie_texels", has_smoothies || has_silhouette_map),
+    ];
+    for (key, is_of_technique) in keys {
+        if let Some(value) = section.get(key).filter(|_| !is_of_technique) {
             return Err(value.refuse(unknown(technique, key)));
         }
     }
     if let Technique::Smoothies(smoothies) = technique {
         smoothies.remap = section.read_or("remap", smoothies.remap, |value| {
             Ok(if REMAPS[value.name_of(REMAPS)?] == "contact" { AlphaRemap::Contact } else { AlphaRemap::Off })
+        })?;
+    }
+    if let Technique::SilhouetteMap(silhouettes) = technique {
+        silhouettes.profile = section.read_or("profile", silhouettes.profile, |value| {
+            Ok(if PROFILES[value.name_of(PROFILES)?] == "linear" { EdgeProfile::Linear } else { EdgeProfile::Disk })
         })?;
     }
     settings.map_size = section.read_or("map_size", settings.map_size, |value| {

@@ -3,8 +3,8 @@ use glam::{DMat4, DVec3};
 use super::*;
 use crate::{
     AlphaRemap, CasterFacts, DepthPrecision, EntryPoints, Light, LightKind, MapSampler, MaskFacts, MeshFacts,
-    MeshPiece, ObjectBox, PagedCaster, PoolHoles, Seating, SettingsError, SmoothieBlend, SmoothieSettings,
-    SmoothieWidth, Technique, TextureFormat, VarianceSettings, views,
+    MeshPiece, ObjectBox, PagedCaster, PoolHoles, Seating, SettingsError, SilhouetteMapSettings, SmoothieBlend,
+    SmoothieSettings, SmoothieWidth, Technique, TextureFormat, VarianceSettings, views,
 };
 
 mod masked;
@@ -147,17 +147,21 @@ fn assert_consistent(plan: &FramePlan) {
     // Whatever does not run has its reason.
     let has_reason = |what: &[Omitted]| what.iter().any(|what| plan.reason(what).is_some());
     for stage in Stage::ALL {
-        let group = match stage {
-            _ if Stage::PLACEMENT.contains(&stage) => Omitted::PlacementStages,
-            _ if Stage::DETECTION.contains(&stage) => Omitted::DetectionStages,
-            _ => Omitted::ExtrusionStages,
+        let groups: &[Omitted] = match stage {
+            _ if Stage::PLACEMENT.contains(&stage) => &[Omitted::PlacementStages],
+            _ if Stage::DETECTION.contains(&stage) => &[Omitted::DetectionStages],
+            Stage::BuildCorners => &[Omitted::ExtrusionStages, Omitted::CornerStage],
+            _ => &[Omitted::ExtrusionStages],
         };
-        assert_eq!(plan.has_stage(stage), !has_reason(&[group]), "{}", stage.name());
+        assert_eq!(plan.has_stage(stage), !has_reason(groups), "{}", stage.name());
     }
     for pass in Pass::ALL {
         let mut what = vec![Omitted::Pass(pass)];
         if pass.draws_smoothies() {
             what.push(Omitted::SmoothiePasses);
+        }
+        if matches!(pass, Pass::SilhouetteMap | Pass::SilhouetteMapTam) {
+            what.push(Omitted::SilhouettePasses);
         }
         if matches!(pass, Pass::MaskedHardwareShadowMap | Pass::MaskedShadowMap) {
             what.push(Omitted::MaskedPasses);
@@ -262,7 +266,7 @@ fn a_shadow_map_needs_no_silhouettes() {
     assert_eq!(plan.passes, [Pass::HardwareShadowMap]);
     assert_eq!(plan.pages[0].counts.edge_blocks, 0);
     assert_eq!(bytes(&plan, BufferKind::EdgeBlocks), Some(12), "never empty");
-    assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::TechniqueHasNoSmoothies));
+    assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::TechniqueHasNoSilhouettes));
     assert_eq!(plan.reason(&Omitted::Pass(Pass::ShadowMap)), Some(Reason::HardwareDepthIsEnough));
     assert!(plan.buffer(BufferKind::Edges).is_none() && plan.buffer(BufferKind::FaceItems).is_some());
 }
@@ -277,13 +281,50 @@ fn each_technique_has_the_maps_that_its_receivers_read() {
         for texture in visibility.textures() {
             assert!(plan.texture(*texture).is_some(), "{name} reads {}", texture.name());
         }
-        let only_while_drawn = [TextureKind::ShadowHardwareDepth, TextureKind::ShadowDepth];
+        let only_while_drawn =
+            [TextureKind::ShadowHardwareDepth, TextureKind::ShadowDepth, TextureKind::SilhouetteOrder];
         for texture in plan.textures.iter().filter(|texture| !only_while_drawn.contains(&texture.kind)) {
             assert!(visibility.textures().contains(&texture.kind), "{name} fills {}", texture.kind.name());
         }
-        let stages = if name == "smoothies" { &Stage::ALL } else { Stage::PLACEMENT };
+        let stages = match name {
+            "smoothies" => Stage::ALL.to_vec(),
+            "silhouette-map" => Stage::ALL.into_iter().filter(|stage| *stage != Stage::BuildCorners).collect(),
+            _ => Stage::PLACEMENT.to_vec(),
+        };
         assert_eq!(plan.stages, stages, "{name}");
     }
+}
+
+#[test]
+fn either_source_of_a_silhouette_map_needs_its_own() {
+    let mut case = Case::new(cube_scene());
+    case.settings.technique = Technique::SilhouetteMap(SilhouetteMapSettings::DEFAULT);
+    let plan = case.good();
+    assert_eq!(plan.passes, [Pass::ShadowMap, Pass::SilhouetteMap]);
+    assert_eq!(plan.reason(&Omitted::CornerStage), Some(Reason::QuadsReachAroundEnds));
+    assert_eq!(plan.reason(&Omitted::Pass(Pass::SilhouetteMapTam)), Some(Reason::StagesFindThem));
+    assert!(plan.buffer(BufferKind::Corners).is_none() && plan.buffer(BufferKind::FaceNeighbours).is_none());
+    case.settings.technique = Technique::SilhouetteMap(SilhouetteMapSettings::TAM);
+    let plan = case.good();
+    assert_eq!(plan.passes, [Pass::ShadowMap, Pass::SilhouetteMapTam]);
+    assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::VertexStageFindsThem));
+    assert_eq!(bytes(&plan, BufferKind::FaceNeighbours), bytes(&plan, BufferKind::Faces));
+    assert!(plan.buffer(BufferKind::Edges).is_none() && plan.buffer(BufferKind::Quads).is_none());
+}
+
+#[test]
+fn a_light_without_size_asks_a_silhouette_map_once() {
+    let mut case = Case::new(cube_scene());
+    case.settings.technique = Technique::SilhouetteMap(SilhouetteMapSettings { samples: 7, ..Default::default() });
+    let samples = |plan: FramePlan| match plan.visibility {
+        Some(VisibilityKind::SilhouetteMap { samples, .. }) => samples,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(samples(case.good()), 7);
+    case.views.iter_mut().for_each(|view| view.light_size = 0.0);
+    assert_eq!(samples(case.good()), 1);
+    case.scene.casters.clear();
+    assert_eq!(case.good().reason(&Omitted::SilhouettePasses), Some(Reason::NothingCasts));
 }
 
 #[test]
@@ -589,7 +630,7 @@ fn a_plan_is_json() {
     assert_eq!(json["passes"][2], "smoothie_alpha");
     assert_eq!(json["buffers"][0]["kind"], "positions");
     assert_eq!(json["settings"]["technique"]["smoothies"]["width"], "from-light-size");
-    assert_eq!(json["left_out"][0]["reason"], "device_blends_no_floats");
+    assert_eq!(json["left_out"][0]["reason"], "technique_has_no_silhouette_map");
 }
 
 #[test]

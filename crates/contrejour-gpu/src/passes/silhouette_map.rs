@@ -1,0 +1,25 @@
+use contrejour_plan::{Pass, TextureKind};
+
+use super::{ClearColor, ColorTarget, DepthKept, DepthTarget, DrawCount, Levels, MapPass};
+use crate::wgsl::wgsl;
+
+/// Signed distance to silhouettes and their depth, from quads.
+pub(super) const SILHOUETTE_MAP: MapPass = MapPass {
+    pass: Pass::SilhouetteMap,
+    wgsl: wgsl!(
+        "raster/silhouette_map",
+        "light",
+        "light_outline",
+        "args",
+        "outline",
+        "image_plane",
+        "power_of_two",
+        "view_depth",
+        "silhouette_point"
+    ),
+    reads: Some(TextureKind::ShadowDepth),
+    draws: &[DrawCount::Indirect(1)],
+    levels: Levels::First,
+    color: Some(ColorTarget { texture: TextureKind::SilhouetteMap, clear: ClearColor::FarDepth, minimum: false }),
+    depth: Some(DepthTarget { texture: TextureKind::SilhouetteOrder, is_drawn: false, kept: DepthKept::Never }),
+};

@@ -1,0 +1,76 @@
+//! What can be set about silhouette maps.
+
+use core::f32::consts::SQRT_2;
+
+/// What can be set about silhouette maps (Valient and Bujnak 2005): a shadow map with a second one beside it, which holds
+/// for each texel near a silhouette the signed distance to it and its depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SilhouetteMapSettings {
+    /// Who finds the silhouettes. Default: the compute stages.
+    pub source: SilhouetteSource,
+    /// How wide the hardest edge is, from dark to lit. Unit: texels. Range: more than 0, up to 4. Default: 0.5. Less shows
+    /// stairs of the picture's own pixels.
+    pub edge_texels: f32,
+    /// Largest half width of a penumbra in NDC (the map's side is 2). Range: more than 0, up to 2. Default: 0.1. As far on
+    /// both sides of a silhouette distances are drawn, so less bounds the fill cost of a large light near its casters;
+    /// their penumbra is then too narrow.
+    pub width_max_ndc: f32,
+    /// Places around a receiver at which a soft edge is looked up. Range: 1 to 1024. Default: 1, which is exact where one
+    /// straight edge is in reach. Valient and Bujnak take four and say that more lower the errors: so it is where edges
+    /// cross, but with the profile of a disk one is nearer to the truth on the whole. A light without size asks for one.
+    pub samples: u32,
+    /// How a soft edge goes from dark to lit. Default: as a disk of light does behind a straight edge.
+    pub profile: EdgeProfile,
+}
+
+/// Who finds the silhouettes of a silhouette map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum SilhouetteSource {
+    /// The compute stages, exactly; a quad around each outline edge is drawn.
+    #[default]
+    Stages,
+    /// The vertex stage, as topology-aware meshes do it: each face asks its neighbours, and one with an outline edge is
+    /// drawn larger.
+    Faces,
+}
+
+/// How a soft edge goes from dark to lit across a penumbra.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum EdgeProfile {
+    /// By the same amount everywhere.
+    Linear,
+    /// By the part of a disk that a straight edge leaves free: slowly, fast, and slowly again, nearly like a cosine.
+    #[default]
+    Disk,
+}
+
+impl SilhouetteMapSettings {
+    /// The defaults of `silhouette-map`.
+    pub const DEFAULT: Self = Self {
+        source: SilhouetteSource::Stages,
+        edge_texels: 0.5,
+        width_max_ndc: 0.1,
+        samples: 1,
+        profile: EdgeProfile::Disk,
+    };
+
+    /// The defaults of `silhouette-map-tam`.
+    pub const TAM: Self = Self { source: SilhouetteSource::Faces, ..Self::DEFAULT };
+
+    /// How far from a silhouette distances are drawn at least, in texels: half the hardest edge and a texel's diagonal, so
+    /// that all four texels around a place on that edge hold one (Valient and Bujnak 2005, `w_sc`).
+    pub(crate) fn least_reach_texels(&self) -> f32 {
+        0.5 * self.edge_texels + SQRT_2
+    }
+}
+
+impl Default for SilhouetteMapSettings {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
