@@ -23,6 +23,7 @@ pub mod pipeline;
 pub mod planted;
 pub mod random;
 pub mod ray_cast;
+pub mod silhouette_texels;
 pub mod soft_edges;
 pub mod stage_run;
 pub mod texture;

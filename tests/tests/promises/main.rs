@@ -24,6 +24,7 @@ mod peers;
 mod pictures;
 mod posed;
 mod repeatable;
+mod silhouette_maps;
 mod silhouettes;
 mod smoothie_ways;
 mod ten_million;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         facing::trials(),
         closed::trials(),
         silhouettes::trials(),
+        silhouette_maps::trials(),
         repeatable::trials(),
         nothing_lost::trials(),
         nothing_per_edge::trials(),

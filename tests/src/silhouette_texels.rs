@@ -1,0 +1,166 @@
+//! The silhouette map by definition: what the raster pass draws from quads, in 64-bit floats.
+
+use contrejour_layout::{LightView, Quad};
+use contrejour_plan::View;
+use glam::DVec2;
+
+/// What a texel of a silhouette map holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SilhouetteTexel {
+    /// Linear depth of the nearest silhouette.
+    pub depth: f64,
+    /// Distance to it in texels, positive on the blocker's side.
+    pub signed_distance: f64,
+}
+
+/// Everything that a texel may hold, but for rounding.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Expected {
+    /// What may win, the nearest first.
+    pub candidates: Vec<SilhouetteTexel>,
+    /// Whether one of them must: else the texel may be empty.
+    pub is_certain: bool,
+}
+
+/// Distances that differ by less, in texels, are equally far: end points are rounded to 32 bits, and a slant may count as so
+/// much.
+pub const TIE_TEXELS: f64 = 4e-3;
+
+/// So near to a texel's border, in texels, rounding may look into its neighbour.
+const BORDER_TEXELS: f64 = 2e-3;
+
+/// Depths that differ by less of them may hide each other or not.
+const DEPTH_TIE: f64 = 1e-4;
+
+/// How an edge that is seen at a slant falls behind one that is not: the shader's `SLANT_PENALTY`.
+const SLANT_PENALTY: f64 = 1e-3;
+
+/// The silhouette map of a view with these quads over a shadow map of linear depth.
+#[derive(Debug)]
+pub struct Definition<'a> {
+    /// The view.
+    pub view: &'a View,
+    /// Its record.
+    pub record: &'a LightView,
+    /// Linear depth, row by row.
+    pub shadow_depth: &'a [f32],
+}
+
+/// Whether something is so.
+#[derive(Clone, Copy, PartialEq)]
+enum Answer {
+    Yes,
+    Perhaps,
+    No,
+}
+
+struct Candidate {
+    order: f64,
+    answer: Answer,
+    texel: SilhouetteTexel,
+}
+
+impl Definition<'_> {
+    /// What each texel may hold, row by row.
+    pub fn texels(&self, quads: &[Quad]) -> Vec<Expected> {
+        let side = self.record.map_size as usize;
+        let mut all: Vec<Vec<Candidate>> = (0..side * side).map(|_| Vec::new()).collect();
+        for quad in quads {
+            let [low, high] = [quad.low_ndc, quad.high_ndc].map(vector);
+            let width = (0..2).map(|end| self.width([low, high][end], vector(quad.outward), quad.q[end].into()));
+            let reach = DVec2::splat(width.fold(0.0, f64::max));
+            let [first, last] = [self.texel_of(low.min(high) - reach), self.texel_of(low.max(high) + reach)];
+            let most = side as f64 - 1.0;
+            let columns = first.x.floor().clamp(0.0, most) as usize..=last.x.floor().clamp(0.0, most) as usize;
+            let rows = last.y.floor().clamp(0.0, most) as usize..=first.y.floor().clamp(0.0, most) as usize;
+            for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
+                let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+                all[row * side + column].extend(self.candidate(quad, place));
+            }
+        }
+        all.into_iter().map(expected).collect()
+    }
+
+    fn candidate(&self, quad: &Quad, texel: DVec2) -> Option<Candidate> {
+        let texels_per_ndc = 0.5 * f64::from(self.record.map_size);
+        let place = (texel / f64::from(self.record.map_size) - 0.5) * DVec2::new(2.0, -2.0);
+        let [low, high, outward] = [quad.low_ndc, quad.high_ndc, quad.outward].map(vector);
+        let along = high - low;
+        let length_squared = along.length_squared();
+        let share =
+            if length_squared > 0.0 { ((place - low).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+        let nearest = low + share * along;
+        let offset = (place - nearest) * texels_per_ndc;
+        let distance = offset.length();
+        let across = offset.dot(outward);
+        let slant = if distance > 0.0 { 1.0 - across.abs() / distance } else { 0.0 };
+        let q = f64::from(quad.q[0]) + share * (f64::from(quad.q[1]) - f64::from(quad.q[0]));
+        let depth = self.depth_of_q(q);
+        let width = self.width(nearest, outward, q) * texels_per_ndc;
+        let is_near = compared(width - distance, TIE_TEXELS);
+        let answer = match (is_near, self.is_unhidden(nearest, outward, depth)) {
+            (Answer::No, _) | (_, Answer::No) => return None,
+            (Answer::Yes, Answer::Yes) => Answer::Yes,
+            _ => Answer::Perhaps,
+        };
+        let signed_distance = if across > 0.0 { -distance } else { distance };
+        let texel = SilhouetteTexel { depth, signed_distance };
+        Some(Candidate { order: distance + SLANT_PENALTY * slant, answer, texel })
+    }
+
+    /// Whether what is drawn just outside is deeper, in each texel that rounding may look into.
+    fn is_unhidden(&self, ndc: DVec2, outward: DVec2, depth: f64) -> Answer {
+        let outside = self.texel_of(ndc) + outward * DVec2::new(1.0, -1.0);
+        let most = f64::from(self.record.map_size) - 1.0;
+        let footprint = if self.record.perspective == 1 { depth } else { 1.0 } * f64::from(self.record.texel_world);
+        let reach = f64::from(self.record.bias_smoothie_texels) * footprint;
+        let border = DVec2::splat(BORDER_TEXELS);
+        let [first, last] =
+            [outside - border, outside + border].map(|place| place.floor().clamp(DVec2::ZERO, DVec2::splat(most)));
+        let answers = [first, DVec2::new(first.x, last.y), DVec2::new(last.x, first.y), last].map(|texel| {
+            let index = texel.y as usize * self.record.map_size as usize + texel.x as usize;
+            let nearest = f64::from(self.shadow_depth[index]);
+            compared(nearest + reach - depth, DEPTH_TIE * depth.abs())
+        });
+        if answers.iter().all(|answer| *answer == answers[0]) { answers[0] } else { Answer::Perhaps }
+    }
+
+    fn width(&self, ndc: DVec2, outward: DVec2, q: f64) -> f64 {
+        let view = self.record;
+        let width = f64::from(view.width_per_q_ndc) * (f64::from(view.q_max) - q);
+        let width = width.max(view.width_min_ndc.into()).min(view.width_max_ndc.into());
+        let along = f64::from(view.sphere_half_side) * ndc.dot(outward);
+        width * (1.0 + along * along).sqrt()
+    }
+
+    fn texel_of(&self, ndc: DVec2) -> DVec2 {
+        (ndc * DVec2::new(0.5, -0.5) + 0.5) * f64::from(self.record.map_size)
+    }
+
+    fn depth_of_q(&self, q: f64) -> f64 {
+        if self.record.perspective == 1 { -1.0 / q } else { q }
+    }
+}
+
+/// Whether a difference is positive.
+fn compared(difference: f64, tie: f64) -> Answer {
+    match difference {
+        _ if difference > tie => Answer::Yes,
+        _ if difference >= -tie => Answer::Perhaps,
+        _ => Answer::No,
+    }
+}
+
+fn expected(mut candidates: Vec<Candidate>) -> Expected {
+    candidates.sort_by(|one, other| one.order.total_cmp(&other.order));
+    let certain = candidates.iter().find(|candidate| candidate.answer == Answer::Yes).map(|candidate| candidate.order);
+    let farthest = certain.map_or(f64::INFINITY, |order| order + TIE_TEXELS);
+    Expected {
+        candidates: candidates.iter().take_while(|it| it.order <= farthest).map(|it| it.texel).collect(),
+        is_certain: certain.is_some(),
+    }
+}
+
+fn vector(of: [f32; 2]) -> DVec2 {
+    DVec2::from(of.map(f64::from))
+}
