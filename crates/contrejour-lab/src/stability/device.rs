@@ -15,7 +15,7 @@ use glam::DMat4;
 use half::f16;
 
 use super::case::CaseMesh;
-use super::checks::non_finite;
+use super::checks::{non_finite, open_boundary};
 use super::error::{CaseError, Ended, Refusal};
 use super::lights::with_another_depth;
 use crate::metrics::Timing;
@@ -226,6 +226,29 @@ impl<'a> DeviceFrame<'a> {
         Ok(records)
     }
 
+    /// Places where a blocker ends and the silhouette map knows none; none where there is no such map.
+    pub fn open_boundaries(&self, far_depths: &[f64]) -> Result<Option<u64>, CaseError> {
+        let maps = self.shadows.maps(self.light);
+        let Some((depths, silhouettes)) = maps.shadow_depth.zip(maps.silhouette_map) else { return Ok(None) };
+        let mut count = 0;
+        for (layer, far_depth) in (0..).zip(far_depths) {
+            let side = depths.width() as usize;
+            let silhouettes: Vec<[f32; 2]> =
+                pod_collect_to_vec(cast_slice::<f32, u8>(&self.layer(silhouettes, layer)?));
+            count += open_boundary(&self.layer(depths, layer)?, &silhouettes, side, *far_depth as f32);
+        }
+        Ok(Some(count))
+    }
+
+    /// The floats of a layer, row by row.
+    fn layer(&self, texture: &wgpu::Texture, layer: u32) -> Result<Vec<f32>, CaseError> {
+        let format = texture.format();
+        let mut texels = Vec::new();
+        let take = |row: &[u8]| texels.extend(floats(format, row));
+        read_rows(self.gpu, texture, [layer, 0], bytes_per_texel(format), take)?;
+        Ok(texels)
+    }
+
     /// Numbers that are not finite, in all texels of all maps.
     pub fn non_finite_texels(&self) -> Result<u64, CaseError> {
         let maps = self.shadows.maps(self.light);
@@ -236,6 +259,7 @@ impl<'a> DeviceFrame<'a> {
             maps.smoothie_depth,
             maps.smoothie_alpha,
             maps.smoothie_buffer,
+            maps.silhouette_map,
         ];
         let mut count = 0;
         for texture in textures.into_iter().flatten() {

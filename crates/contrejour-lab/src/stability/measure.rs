@@ -46,6 +46,8 @@ fn tried(gpu: &Gpu, case: &Case, row: &mut Row) -> Result<(), Ended> {
     device.complete(&case.light)?;
     row.time_ms = device.time_ms(&case.light)?;
     row.non_finite = Some(device.non_finite_texels()?);
+    let far_depths: Vec<_> = views.iter().map(|view| view.far_depth).collect();
+    row.gaps = device.open_boundaries(&far_depths)?;
 
     let placed: Vec<_> = meshes.iter().map(|mesh| (&*mesh.topology, mesh.world_from_object)).collect();
     let mut is_idle = vec![true; meshes.len()];

@@ -38,7 +38,8 @@ pub struct Row {
     /// Vertices at which the silhouette of the device or of its twin is no cycle.
     pub open_cycles: Option<u64>,
     /// Outline edges in view that the device or its twin gave no quad, and, where the family looks for them, points beside
-    /// outline vertices that neither a blocker nor a smoothie covers.
+    /// outline vertices that neither a blocker nor a smoothie covers; in silhouette maps, neighbouring texels between which a
+    /// blocker ends though one of them knows no silhouette.
     pub gaps: Option<u64>,
     /// Numbers that are infinite or none: in quads, corners, planes, light records and all texels of all maps that the frame
     /// leaves, in the twin's quads and corners, and in the visibility and the shaded picture of what is looked at.

@@ -69,22 +69,24 @@ impl SeenView<'_> {
     pub fn compare_smoothies(&self, row: &mut Row) {
         let Self { case, meshes, view, frame, twin, found } = self;
         add(&mut row.non_finite, found.non_finite + non_finite(&twin.quads) + non_finite(&twin.corners));
-        let Some(definition) = WidthDefinition::new(view, &case.settings) else { return };
-        let drawn = [(&found.quads, &found.corners), (&twin.quads, &twin.corners)];
-        let errors = drawn.iter().filter_map(|(quads, corners)| definition.error(meshes, quads, corners));
-        row.width_error = row.width_error.into_iter().chain(errors).reduce(f64::max);
-
         let has_image = |edge: &&SilhouetteEdge| frame.caster_lights[edge.caster as usize].has_image();
         let missing = [(&found.silhouettes, &found.quads), (&twin.silhouettes, &twin.quads)].map(|(edges, quads)| {
             let edges: Vec<_> = edges.iter().filter(has_image).copied().collect();
             missing_quads(view, meshes, &edges, quads)
         });
+        if found.lit.is_some() {
+            add(&mut row.gaps, missing[0].max(missing[1]));
+        }
+        let Some(definition) = WidthDefinition::new(view, &case.settings) else { return };
+        let drawn = [(&found.quads, &found.corners), (&twin.quads, &twin.corners)];
+        let errors = drawn.iter().filter_map(|(quads, corners)| definition.error(meshes, quads, corners));
+        row.width_error = row.width_error.into_iter().chain(errors).reduce(f64::max);
+
         let points = case.gap_search.as_ref().and_then(|search| {
             let blockers = blockers(meshes, frame);
             drawn.iter().map(|(quads, corners)| gap_points(quads, corners, &blockers, search)).max()
         });
-        let [of_device, of_twin] = missing;
-        add(&mut row.gaps, of_device.max(of_twin) + points.unwrap_or(0));
+        add(&mut row.gaps, points.unwrap_or(0));
     }
 }
 

@@ -66,6 +66,7 @@ impl Floats for ReceiverView {
             self.bleed_cut,
             self.min_variance,
             self.warp_exponent,
+            self.edge_texels,
         ];
         self.light_clip_from_world.into_iter().chain(self.light_world).chain(numbers)
     }
@@ -113,7 +114,7 @@ mod tests {
         assert_eq!(words_that_count::<Corner>(), 10);
         assert_eq!(words_that_count::<CasterLight>(), 20);
         assert_eq!(words_that_count::<LightView>(), 14);
-        assert_eq!(words_that_count::<ReceiverView>(), 35);
+        assert_eq!(words_that_count::<ReceiverView>(), 36);
         assert_eq!(words_that_count::<f32>(), 1);
         assert_eq!(non_finite(&[0.0, f32::NAN, f32::MAX, f32::INFINITY]), 2);
     }

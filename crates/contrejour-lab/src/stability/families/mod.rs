@@ -12,6 +12,7 @@ mod map_sizes;
 mod overlaps;
 mod projections;
 mod shapes;
+mod silhouette_maps;
 mod sizes;
 mod techniques;
 mod wide_smoothies;
@@ -21,7 +22,7 @@ use super::family::Family;
 pub(super) use lamps::a_lamp_amid_a_ring;
 
 /// All families, in the order of the page.
-pub const FAMILIES: [Family; 33] = [
+pub const FAMILIES: [Family; 34] = [
     sizes::SCALE,
     sizes::DISTANCE,
     shapes::SLIVERS,
@@ -55,4 +56,5 @@ pub const FAMILIES: [Family; 33] = [
     overlaps::OVERLAPS,
     intensity::INTENSITY,
     techniques::TECHNIQUES,
+    silhouette_maps::SILHOUETTE_MAPS,
 ];
