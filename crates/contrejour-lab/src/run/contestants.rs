@@ -135,6 +135,20 @@ const FAMILIES: &[Family] = &[
         depth_bits: BOTH_BITS,
     },
     Family { name: "smoothies by light size", technique: "smoothies", fixed: &[], swept: &[], depth_bits: BOTH_BITS },
+    Family {
+        name: "silhouette map",
+        technique: "silhouette-map",
+        fixed: &[],
+        swept: &[sweep("samples", &[1.0, 4.0, 16.0], 2), sweep("width_max_ndc", &[0.1, 0.25], 1)],
+        depth_bits: BOTH_BITS,
+    },
+    Family {
+        name: "silhouette map TAM",
+        technique: "silhouette-map-tam",
+        fixed: &[],
+        swept: &[sweep("samples", &[1.0, 4.0], 1)],
+        depth_bits: BITS_32,
+    },
 ];
 
 /// All entrants of an extent that were asked for, by the name of their technique or family; all where no name is given.

@@ -1,6 +1,6 @@
 //! The techniques that the papers' figures compare.
 
-use contrejour_plan::{ShadowSettings, SmoothieSettings, SmoothieWidth, Technique};
+use contrejour_plan::{ShadowSettings, SilhouetteMapSettings, SmoothieSettings, SmoothieWidth, Technique};
 
 /// A technique and what a figure calls it.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +33,23 @@ pub(super) const BY_LIGHT_SIZE: Method = Method {
     label: "smoothies, light's size",
     file: "by-light-size",
     technique: Technique::Smoothies(SmoothieSettings::DEFAULT),
+};
+
+/// Percentage-closer filtering of the four nearest texels.
+pub(super) const TWO_BY_TWO: Method = Method { label: "2x2 filter", file: "2x2", technique: Technique::Pcf };
+
+/// Silhouettes from the compute stages.
+pub(super) const SILHOUETTE_MAP: Method = Method {
+    label: "silhouette map",
+    file: "silhouette-map",
+    technique: Technique::SilhouetteMap(SilhouetteMapSettings::DEFAULT),
+};
+
+/// Silhouettes from the vertex stage, as Valient and Bujnak (2005) find them.
+pub(super) const SILHOUETTE_MAP_TAM: Method = Method {
+    label: "silhouette map, TAM",
+    file: "silhouette-map-tam",
+    technique: Technique::SilhouetteMap(SilhouetteMapSettings::TAM),
 };
 
 const fn of_width(width_ndc: f32) -> SmoothieSettings {

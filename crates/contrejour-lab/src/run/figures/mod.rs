@@ -2,6 +2,8 @@
 
 mod alpha_remap;
 mod beside_truth;
+mod boundary;
+mod boundary_precision;
 mod chan_durand_times;
 mod growing_light;
 mod methods;
@@ -9,10 +11,12 @@ mod methods_by_resolution;
 mod overlapping_smoothies;
 mod own_shadow;
 mod sight;
+mod silhouette_map_times;
 mod silhouettes;
 mod smoothie_buffer_cost;
 mod torn_by_bias;
 mod turns;
+mod weak_spots;
 
 use super::error::RunError;
 use super::event::Event;
@@ -27,7 +31,7 @@ struct Maker {
 }
 
 /// In the order of the page.
-const MAKERS: [Maker; 10] = [
+const MAKERS: [Maker; 14] = [
     Maker { name: "chan-durand-times", make: chan_durand_times::make },
     Maker { name: "silhouette-time", make: silhouettes::time::make },
     Maker { name: "silhouette-size", make: silhouettes::size::make },
@@ -38,6 +42,10 @@ const MAKERS: [Maker; 10] = [
     Maker { name: "alpha-remap", make: alpha_remap::make },
     Maker { name: "overlapping-smoothies", make: overlapping_smoothies::make },
     Maker { name: "own-shadow", make: own_shadow::make },
+    Maker { name: "silhouette-map-times", make: silhouette_map_times::make },
+    Maker { name: "boundary-precision", make: boundary_precision::precision },
+    Maker { name: "boundary-pictures", make: boundary_precision::pictures },
+    Maker { name: "silhouette-map-weak-spots", make: weak_spots::make },
 ];
 
 /// What a run makes: the first shard all. A report of chosen techniques has no figures, for the papers compare techniques
