@@ -18,18 +18,15 @@ struct SilhouetteVertex {
 @vertex
 fn vertex_silhouette_quad(@builtin(vertex_index) index: u32) -> SilhouetteVertex {
     let quad = quads[index / VERTICES_PER_QUAD];
-    // Two triangles: low inner, high inner, high outer; low inner, high outer, low outer.
-    let corner = index % VERTICES_PER_QUAD;
-    let is_high = corner == 1u || corner == 2u || corner == 4u;
-    let is_outer = corner == 2u || corner >= 4u;
+    let corner = quad_corner(index);
     let width = max(
         quad.width_ndc.x * widening(leaning(quad.low_ndc), quad.outward),
         quad.width_ndc.y * widening(leaning(quad.high_ndc), quad.outward),
     );
     // The outward side is right of the way, or left where the blocker is on the right.
     let along = select(clockwise(quad.outward), counter_clockwise(quad.outward), quad.side == OUTLINE_BLOCKER_LEFT);
-    let ndc = select(quad.low_ndc - width * along, quad.high_ndc + width * along, is_high)
-        + select(-width, width, is_outer) * quad.outward;
+    let ndc = select(quad.low_ndc - width * along, quad.high_ndc + width * along, corner.is_high)
+        + select(-width, width, corner.is_outer) * quad.outward;
     return SilhouetteVertex(drawn_at(ndc), vec4f(quad.low_ndc, quad.high_ndc), quad.outward, quad.q);
 }
 

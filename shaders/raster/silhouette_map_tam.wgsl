@@ -35,12 +35,10 @@ const SLACK_TEXELS = 0.05;
 // A triangle that reaches farther, in NDC, is drawn as the box around its outline edges.
 const FARTHEST_NDC = 16.0;
 
-const NOTHING_DRAWN = vec4f(0.0, 0.0, 2.0, 1.0);
-
 @vertex
 fn vertex_silhouette_face(@builtin(vertex_index) index: u32) -> SilhouetteVertex {
     var vertex: SilhouetteVertex;
-    vertex.clip = NOTHING_DRAWN;
+    vertex.clip = NOWHERE;
     let item = face_items[index / (3u * BLOCK_SIZE)];
     let caster = casters[item.caster];
     let face_id = item.block * BLOCK_SIZE + index / 3u % BLOCK_SIZE;

@@ -30,15 +30,12 @@ const INNER_RIM_TEXELS = 0.5;
 @vertex
 fn vertex_quad(@builtin(vertex_index) index: u32) -> SmoothieVertex {
     let quad = quads[index / VERTICES_PER_QUAD];
-    // Two triangles: low inner, high inner, high outer; low inner, high outer, low outer.
-    let corner = index % VERTICES_PER_QUAD;
-    let is_high = corner == 1u || corner == 2u || corner == 4u;
-    let is_outer = corner == 2u || corner >= 4u;
-    let end = select(quad.low_ndc, quad.high_ndc, is_high);
+    let corner = quad_corner(index);
+    let end = select(quad.low_ndc, quad.high_ndc, corner.is_high);
     let place = leaning(end);
-    let width = widening(place, quad.outward) * select(quad.width_ndc.x, quad.width_ndc.y, is_high);
-    let q = select(quad.q.x, quad.q.y, is_high);
-    let across = select(-rim_overlap(), width, is_outer);
+    let width = widening(place, quad.outward) * select(quad.width_ndc.x, quad.width_ndc.y, corner.is_high);
+    let q = select(quad.q.x, quad.q.y, corner.is_high);
+    let across = select(-rim_overlap(), width, corner.is_outer);
     return SmoothieVertex(clip_at(end + across * slant(place, quad.outward), q), across, vec2f(0.0), width, q / q_unit());
 }
 

@@ -12,9 +12,6 @@ struct PancakedTexel {
     @location(0) depth: f32,
 }
 
-// Where a corner goes that draws nothing: behind the far plane.
-const NOWHERE = vec4f(0.0, 0.0, 2.0, 1.0);
-
 fn shadow_vertex(light_clip_from_object: mat4x4f, position: vec3f) -> ShadowVertex {
     let clip = light_clip_from_object * vec4f(position, 1.0);
     // All of clip space may be scaled. Rasterisers divide by its w, which is the depth: near the ends of the type they fail.

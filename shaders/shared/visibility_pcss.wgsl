@@ -1,8 +1,6 @@
 // Visibility by percentage-closer soft shadows: the mean blocker's q sets the radius of a percentage-closer filter.
 // Fernando 2005. Joined with `const CONTREJOUR_BLOCKER_SAMPLES` and `const CONTREJOUR_FILTER_SAMPLES`.
 
-const CONTREJOUR_GOLDEN_ANGLE = 2.3999632;
-
 fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
     let q = contrejour_q_of_depth(lookup.depth);
     let gradient = contrejour_q_gradient(lookup);
@@ -41,13 +39,6 @@ fn contrejour_map_q(ndc: vec2f) -> f32 {
     let texel = vec2i(floor(contrejour_uv_of_ndc(ndc) * f32(view.map_size)));
     let inside = clamp(texel, vec2i(0), vec2i(i32(view.map_size) - 1));
     return (textureLoad(contrejour_shadow_map, inside, contrejour_layer, 0) - view.ndc_offset) / view.ndc_scale;
-}
-
-// Points spread evenly over the unit disk (Vogel 1979).
-fn contrejour_disk(sample: u32, count: u32, turn: f32) -> vec2f {
-    let radius = sqrt((f32(sample) + 0.5) / f32(count));
-    let angle = f32(sample) * CONTREJOUR_GOLDEN_ANGLE + turn;
-    return radius * vec2f(cos(angle), sin(angle));
 }
 
 // An angle that looks random from point to point, so that too few samples show as noise and not as bands; a point keeps

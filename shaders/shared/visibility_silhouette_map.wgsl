@@ -3,14 +3,11 @@
 // Valient & Bujnak 2005, equation 4, its gradient worked out and not looked up. Joined with `const CONTREJOUR_SAMPLES` and
 // `const CONTREJOUR_PROFILE_IS_DISK`.
 
-@group(CONTREJOUR_GROUP) @binding(1) var contrejour_shadow_depth: texture_2d_array<f32>;
 @group(CONTREJOUR_GROUP) @binding(2) var contrejour_silhouette_map: texture_2d_array<f32>;
 
 // Two disks, one after the other, blur as much as one whose radius squared is the sum of theirs.
 const CONTREJOUR_SHARE = 0.7;
 const CONTREJOUR_SPREAD = 0.71414284;
-
-const CONTREJOUR_GOLDEN_ANGLE = 2.3999632;
 
 // Depth is compared this far outside of a silhouette, where the nearest texel shows nothing of its blocker: so many texels,
 // and this share of half the penumbra's width, since the nearest edge may lie a little inside of a silhouette that folds.
@@ -46,8 +43,7 @@ fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
     let place = contrejour_leaning(lookup.place_ndc);
     var sum = 0.0;
     for (var sample = 0u; sample < CONTREJOUR_SAMPLES; sample++) {
-        let angle = f32(sample) * CONTREJOUR_GOLDEN_ANGLE;
-        let offset = CONTREJOUR_SPREAD * middle.radius * sqrt((f32(sample) + 0.5) / f32(CONTREJOUR_SAMPLES)) * vec2f(cos(angle), sin(angle));
+        let offset = CONTREJOUR_SPREAD * middle.radius * contrejour_disk(sample, CONTREJOUR_SAMPLES, 0.0);
         sum += contrejour_glimpse(lookup, gradient, contrejour_outline_from_disk(place, offset), CONTREJOUR_SHARE).visibility;
     }
     return sum / f32(CONTREJOUR_SAMPLES);
@@ -70,7 +66,7 @@ fn contrejour_glimpse(lookup: ContrejourLookup, gradient: vec2f, offset: vec2f, 
     for (var i = 0u; i < 4u; i++) {
         let cell = vec2f(f32(i & 1u), f32(i >> 1u));
         let to_texel = (cell - weight) * vec2f(2.0, -2.0) / size;
-        let texel = contrejour_silhouette_texel(corner + cell, q + dot(gradient, to_texel));
+        let texel = contrejour_silhouette_texel(vec2i(corner + cell), q + dot(gradient, to_texel));
         if texel.is_known {
             let near = 1.0 - abs(cell - weight);
             known += near.x * near.y;
@@ -114,7 +110,7 @@ fn contrejour_glimpse(lookup: ContrejourLookup, gradient: vec2f, offset: vec2f, 
     let away = -max(signed_distance + outside_by, 0.0) * inward;
     let outside = floor(place + 0.5 + away);
     let to_outside = (outside - place) * vec2f(2.0, -2.0) / size;
-    let is_lit = q + dot(gradient, to_outside) <= contrejour_q_of_depth(contrejour_shadow_depth_at(outside));
+    let is_lit = q + dot(gradient, to_outside) <= contrejour_q_of_depth(contrejour_shadow_depth_at(vec2i(outside)));
     return ContrejourGlimpse(select(0.0, past_edge, is_lit), radius);
 }
 
@@ -127,7 +123,7 @@ fn contrejour_edge_profile(x: f32) -> f32 {
     return 0.5 - 0.5 * x;
 }
 
-fn contrejour_silhouette_texel(texel: vec2f, q: f32) -> ContrejourSilhouetteTexel {
+fn contrejour_silhouette_texel(texel: vec2i, q: f32) -> ContrejourSilhouetteTexel {
     let nearest = contrejour_shadow_depth_at(texel);
     let is_lit = q <= contrejour_q_of_depth(nearest);
     let kept = textureLoad(contrejour_silhouette_map, contrejour_inside(texel), contrejour_layer, 0).xy;
@@ -143,13 +139,4 @@ fn contrejour_silhouette_texel(texel: vec2f, q: f32) -> ContrejourSilhouetteTexe
     let deepest = depth + CONTREJOUR_STEEPEST_BLOCKER * footprint * (distance + 1.0);
     let is_behind = !is_lit && nearest <= deepest;
     return ContrejourSilhouetteTexel(is_lit, true, select(-distance, distance, is_behind), q_silhouette);
-}
-
-fn contrejour_shadow_depth_at(texel: vec2f) -> f32 {
-    let kept = textureLoad(contrejour_shadow_depth, contrejour_inside(texel), contrejour_layer, 0).x;
-    return contrejour_receiver_view.depth_unit * kept;
-}
-
-fn contrejour_inside(texel: vec2f) -> vec2i {
-    return vec2i(clamp(texel, vec2f(0.0), vec2f(f32(contrejour_receiver_view.map_size) - 1.0)));
 }

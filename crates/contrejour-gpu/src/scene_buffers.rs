@@ -203,9 +203,10 @@ impl Upload<'_> {
                 if has_planes && (is_new || stale.planes || stale.empty.contains(&planes)) {
                     meshes.write_planes(piece, |offset, data| self.write(planes, offset, data));
                 }
-                let made = MESH_POOLS.map(|kind| (kind, page)).into_iter();
-                for place in made.filter(|(kind, page)| self.shared.find(*kind, *page).is_some()).collect::<Vec<_>>() {
-                    if is_new || stale.empty.contains(&place) {
+                for place in MESH_POOLS.map(|kind| (kind, page)) {
+                    // What nobody binds is not worked out.
+                    let is_made = self.shared.find(place.0, place.1).is_some();
+                    if is_made && (is_new || stale.empty.contains(&place)) {
                         meshes.write_piece(place.0, piece, |offset, data| self.write(place, offset, data));
                     }
                 }

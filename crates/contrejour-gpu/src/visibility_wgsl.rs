@@ -14,14 +14,17 @@ macro_rules! function {
 const COMPARED: &str = function!("visibility_shadow_map", "shadow_comparison");
 const GAUSSIAN_PCF: &str = function!("visibility_gaussian_pcf", "shadow_comparison", "receiver_plane");
 const BICUBIC_PCF: &str = function!("visibility_bicubic_pcf", "shadow_comparison", "receiver_plane");
-const PCSS: &str = function!("visibility_pcss", "blocker_search", "shadow_comparison", "receiver_plane");
+const PCSS: &str =
+    function!("visibility_pcss", "disk_samples", "blocker_search", "shadow_comparison", "receiver_plane");
 const VSM: &str = function!("visibility_moments", "moments", "moments_plain");
 const EVSM: &str = function!("visibility_moments", "moments", "moments_warped", "warp");
 const VSM_PCSS: &str = function!("visibility_moments_pcss", "blocker_search", "moments", "moments_plain");
 const EVSM_PCSS: &str = function!("visibility_moments_pcss", "blocker_search", "moments", "moments_warped", "warp");
-const SMOOTHIES_SPLIT: &str = function!("visibility_smoothies", "receiver_texels", "smoothie_split");
-const SMOOTHIES_PACKED: &str = function!("visibility_smoothies", "receiver_texels", "smoothie_packed");
-const SILHOUETTE_MAP: &str = function!("visibility_silhouette_map", "blocker_search", "receiver_plane");
+const SMOOTHIES_SPLIT: &str = function!("visibility_smoothies", "receiver_texels", "receiver_depth", "smoothie_split");
+const SMOOTHIES_PACKED: &str =
+    function!("visibility_smoothies", "receiver_texels", "receiver_depth", "smoothie_packed");
+const SILHOUETTE_MAP: &str =
+    function!("visibility_silhouette_map", "receiver_depth", "disk_samples", "blocker_search", "receiver_plane");
 
 const ONLY_VIEW: &str = wgsl!("shared/receiver_view_only");
 const CUBE_VIEWS: &str = wgsl!("shared/receiver_view_of_cube");

@@ -117,8 +117,16 @@ pub const ALL: [MapPass; 11] = [
     silhouette_map_tam::SILHOUETTE_MAP_TAM,
 ];
 
-const SHADOW_MAP_WGSL: &str =
-    wgsl!("raster/shadow_map", "topology", "light", "caster_position", "view_depth", "power_of_two", "shadow_vertex");
+const SHADOW_MAP_WGSL: &str = wgsl!(
+    "raster/shadow_map",
+    "topology",
+    "light",
+    "caster_position",
+    "view_depth",
+    "power_of_two",
+    "shadow_vertex",
+    "nowhere"
+);
 
 const MASKED_SHADOW_MAP_WGSL: &str = wgsl!(
     "raster/masked_shadow_map",
@@ -128,10 +136,12 @@ const MASKED_SHADOW_MAP_WGSL: &str = wgsl!(
     "view_depth",
     "power_of_two",
     "shadow_vertex",
+    "nowhere",
     "mask"
 );
 
-const SMOOTHIE_WGSL: &str = wgsl!("raster/smoothie_buffer", "light", "light_outline", "args", "outline", "view_depth");
+const SMOOTHIE_WGSL: &str =
+    wgsl!("raster/smoothie_buffer", "light", "light_outline", "args", "outline", "quad_corner", "view_depth");
 
 const SMOOTHIE_DRAWS: &[DrawCount] = &[DrawCount::Indirect(1), DrawCount::Indirect(2)];
 

@@ -12,6 +12,7 @@ pub(super) const SILHOUETTE_MAP: MapPass = MapPass {
         "light_outline",
         "args",
         "outline",
+        "quad_corner",
         "image_plane",
         "power_of_two",
         "view_depth",

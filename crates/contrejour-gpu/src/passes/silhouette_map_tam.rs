@@ -16,6 +16,7 @@ pub(super) const SILHOUETTE_MAP_TAM: MapPass = MapPass {
         "edge_image",
         "power_of_two",
         "view_depth",
+        "nowhere",
         "silhouette_point"
     ),
     reads: Some(TextureKind::ShadowDepth),
