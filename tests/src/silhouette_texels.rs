@@ -1,7 +1,6 @@
 //! The silhouette map by definition: what the raster pass draws from quads, in 64-bit floats.
 
 use contrejour_layout::{LightView, Quad};
-use contrejour_plan::View;
 use glam::DVec2;
 
 /// What a texel of a silhouette map holds.
@@ -38,9 +37,7 @@ const SLANT_PENALTY: f64 = 1e-3;
 /// The silhouette map of a view with these quads over a shadow map of linear depth.
 #[derive(Debug)]
 pub struct Definition<'a> {
-    /// The view.
-    pub view: &'a View,
-    /// Its record.
+    /// The view's record.
     pub record: &'a LightView,
     /// Linear depth, row by row.
     pub shadow_depth: &'a [f32],

@@ -7,6 +7,8 @@ pub mod report;
 pub mod run;
 pub mod stability;
 pub mod stress;
+#[cfg(test)]
+mod test_device;
 mod torus;
 
 pub use torus::{Triangles, torus};

@@ -128,7 +128,7 @@ impl<'a> Drawn<'a> {
         let record = view.light_view(&settings(self.source), &ViewCounts::default());
         let depth = self.pipeline.maps().shadow_depth.ok_or("there is no shadow map")?;
         let shadow_depth = &read_floats(self.gpu, depth);
-        Ok(Definition { view, record: &record, shadow_depth }.texels(&self.pipeline.quads()))
+        Ok(Definition { record: &record, shadow_depth }.texels(&self.pipeline.quads()))
     }
 }
 

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3, Vec4Swizzles};
 use image::RgbaImage;
 
 use super::super::error::RunError;
-use super::sight::built_in;
+use super::sight::{built_in, with_radii};
 use crate::report::visibility_picture;
 
 /// What casts: a sheet of an outline that is straight or round.
@@ -59,14 +59,9 @@ pub(super) struct BoundaryError {
 
 impl BoundaryScene {
     pub fn new(gpu: &Gpu, outline: Outline, map_size: u32, size: [u32; 2]) -> Result<Self, RunError> {
-        let mut scene = built_in("square")?;
+        let mut scene = with_radii(built_in("square")?, |_| 0.0);
         let corners_world = corners(outline);
         place_sheet(&mut scene, &corners_world);
-        for light in &mut scene.lights {
-            if let LightKind::Spot { radius, .. } = &mut light.light.kind {
-                *radius = 0.0;
-            }
-        }
         let SceneLight { light, mut shadow, .. } = *scene.first_light()?;
         shadow.map_size = map_size;
         look_at_edge(&mut scene, &light, map_size, (corners_world[0] + corners_world[1]) / 2.0)?;
@@ -184,17 +179,9 @@ mod tests {
     use contrejour_plan::Technique;
 
     use super::*;
+    use crate::test_device::device;
 
     const SIZE: [u32; 2] = [320, 240];
-
-    /// None where there is no device, unless `CONTREJOUR_REQUIRE_GPU=1` asks for one.
-    fn device() -> Option<Gpu> {
-        match Gpu::open() {
-            Ok(gpu) => Some(gpu),
-            Err(error) if std::env::var("CONTREJOUR_REQUIRE_GPU").is_ok_and(|value| value == "1") => panic!("{error}"),
-            Err(_) => None,
-        }
-    }
 
     fn error(scene: &BoundaryScene, name: &str) -> BoundaryError {
         let technique: Technique = name.parse().expect("listed");

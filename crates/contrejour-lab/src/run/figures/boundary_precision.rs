@@ -40,20 +40,20 @@ pub(super) fn precision(lab: &Lab) -> Result<Figure, RunError> {
             }
         }
     }
-    let series = OUTLINES.iter().flat_map(|&(_, outline)| {
-        METHODS.iter().map({
-            let measured = &measured;
-            move |method| Series {
+    let mut series = Vec::new();
+    for (_, outline) in OUTLINES {
+        for method in METHODS {
+            series.push(Series {
                 label: format!("{}, {outline}", method.label),
-                points: points(measured, outline, method.label),
+                points: points(&measured, outline, method.label),
                 stroke: Stroke::Line,
-            }
-        })
-    });
+            });
+        }
+    }
     let plot = Plot {
         x: Axis { label: "texels along the map's side".to_owned(), scale: Scale::Log },
         y: Axis { label: "mean distance from the true edge, texels".to_owned(), scale: Scale::Log },
-        series: series.collect(),
+        series,
     };
     let caption = format!(
         "Where visibility is one half, on a floor under a light without size, and how far that is from the outline of a \

@@ -1,12 +1,9 @@
 //! The umbra under a light that grows: the true one shrinks, that of smoothies does not.
 
-use contrejour_plan::LightKind;
-use contrejour_scene::Scene;
-
 use super::super::error::RunError;
 use super::super::lab::Lab;
 use super::methods::{BY_LIGHT_SIZE, SHADOW_MAP};
-use super::sight::{Sight, built_in};
+use super::sight::{Sight, built_in, with_radii};
 use crate::metrics::UMBRA_UP_TO;
 use crate::report::{Axis, Body, Extent, Figure, Plot, Scale, Series, Stroke};
 
@@ -46,21 +43,12 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
 }
 
 fn under(lab: &Lab, radius: f64) -> Result<Under, RunError> {
-    let sight = Sight::new(lab, &format!("light-{radius}"), with_radius(built_in("cylinder")?, radius))?;
+    let sight = Sight::new(lab, &format!("light-{radius}"), with_radii(built_in("cylinder")?, |_| radius))?;
     let [smoothies, hard] = [BY_LIGHT_SIZE, SHADOW_MAP].map(|method| method.settings(sight.shadow(), MAP_SIZE));
     let visibilities = [sight.visibility(&smoothies)?, sight.visibility(&hard)?];
     let [smoothies, hard] = visibilities;
     let compared = sight.truth.compared;
     Ok(Under { radius, visibilities: [sight.truth.visibility, smoothies, hard], compared })
-}
-
-fn with_radius(mut scene: Scene, new_radius: f64) -> Scene {
-    for light in &mut scene.lights {
-        if let LightKind::Spot { radius, .. } = &mut light.light.kind {
-            *radius = new_radius;
-        }
-    }
-    scene
 }
 
 /// Radius and share of umbra for the truth and the methods, over the pixels that are compared at every radius.

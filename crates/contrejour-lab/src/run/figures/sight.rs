@@ -1,6 +1,6 @@
 //! A scene of a figure with its truth, at the points that a picture of modest size shows.
 
-use contrejour_plan::ShadowSettings;
+use contrejour_plan::{LightKind, ShadowSettings};
 use contrejour_scene::Scene;
 use image::RgbaImage;
 
@@ -26,6 +26,16 @@ const WIDTH_MAX: u32 = 320;
 /// The scene of that name that comes with contrejour.
 pub(super) fn built_in(name: &'static str) -> Result<Scene, RunError> {
     Ok(Scene::built_in(Some(name)).ok_or(RunError::NoScene { name })??)
+}
+
+/// A scene whose spots have other radii.
+pub(super) fn with_radii(mut scene: Scene, change: impl Fn(f64) -> f64) -> Scene {
+    for light in &mut scene.lights {
+        if let LightKind::Spot { radius, .. } = &mut light.light.kind {
+            *radius = change(*radius);
+        }
+    }
+    scene
 }
 
 impl Sight {

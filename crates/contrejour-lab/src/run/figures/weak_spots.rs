@@ -1,14 +1,11 @@
 //! Where silhouette maps are wrong, as Valient and Bujnak (2005) say of theirs: where silhouettes touch and cross, where
 //! shadows are thin, and where the light is wide.
 
-use contrejour_plan::LightKind;
-use contrejour_scene::Scene;
-
 use super::super::error::RunError;
 use super::super::lab::Lab;
 use super::beside_truth::beside_truth;
 use super::methods::SILHOUETTE_MAP;
-use super::sight::{Sight, built_in};
+use super::sight::{Sight, built_in, with_radii};
 use crate::report::{Body, Figure, GridRow, PictureGrid};
 
 /// A weak spot.
@@ -32,7 +29,11 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     let mut columns = Vec::new();
     let mut errors = Vec::new();
     for spot in &SPOTS {
-        let sight = Sight::new(lab, &format!("weak-{}", spot.name), widened(built_in(spot.scene)?, spot.wider))?;
+        let sight = Sight::new(
+            lab,
+            &format!("weak-{}", spot.name),
+            with_radii(built_in(spot.scene)?, |radius| spot.wider * radius),
+        )?;
         let settings = SILHOUETTE_MAP.settings(sight.shadow(), spot.map_size);
         let label = format!("{}, {}, {} texels", spot.label, spot.scene, spot.map_size);
         let beside = beside_truth(lab, &format!("figure-weak-{}", spot.name), &sight, &[(&label, settings)])?;
@@ -50,15 +51,6 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     Ok(Figure { title: "Weak spots of silhouette maps".to_owned(), caption, body })
 }
 
-fn widened(mut scene: Scene, by: f64) -> Scene {
-    for light in &mut scene.lights {
-        if let LightKind::Spot { radius, .. } = &mut light.light.kind {
-            *radius *= by;
-        }
-    }
-    scene
-}
-
 /// The error at each of them.
 fn told(errors: &[(&str, f64)]) -> String {
     let one = |(label, rmse): &(&str, f64)| format!("{label} {rmse:.3}");
@@ -67,6 +59,9 @@ fn told(errors: &[(&str, f64)]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use contrejour_plan::LightKind;
+    use contrejour_scene::Scene;
+
     use super::*;
 
     #[test]
@@ -82,7 +77,7 @@ mod tests {
                 LightKind::Spot { radius, .. } => radius,
                 _ => panic!("{} has no spot", spot.scene),
             };
-            assert_eq!(radius(&widened(scene.clone(), spot.wider)), spot.wider * radius(&scene));
+            assert_eq!(radius(&with_radii(scene.clone(), |radius| spot.wider * radius)), spot.wider * radius(&scene));
         }
     }
 }

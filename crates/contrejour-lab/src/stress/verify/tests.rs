@@ -1,7 +1,5 @@
 //! The verifier must see what is wrong: each check is shown a fault.
 
-use std::env;
-
 use contrejour_plan::Light;
 use contrejour_scene::Camera;
 
@@ -10,6 +8,7 @@ use super::*;
 use crate::stress::StressOptions;
 use crate::stress::pictures::PictureMoment;
 use crate::stress::run::settle;
+use crate::test_device::device;
 
 #[test]
 fn a_wrong_edge_a_missing_one_and_a_wrong_side_are_found() {
@@ -53,15 +52,6 @@ fn world() -> World {
 }
 
 const FRAME: u64 = 40;
-
-/// None where there is no device, unless `CONTREJOUR_REQUIRE_GPU=1` asks for one.
-fn device() -> Option<Gpu> {
-    match Gpu::open() {
-        Ok(gpu) => Some(gpu),
-        Err(error) if env::var("CONTREJOUR_REQUIRE_GPU").is_ok_and(|value| value == "1") => panic!("{error}"),
-        Err(_) => None,
-    }
-}
 
 /// The world as it is in a frame but for what `tamper` does, drawn.
 fn placed(gpu: &Gpu, world: &World, tamper: impl FnOnce(&mut Placed)) -> Placed {
