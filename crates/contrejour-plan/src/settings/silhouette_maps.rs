@@ -17,8 +17,8 @@ pub struct SilhouetteMapSettings {
     /// their penumbra is then too narrow.
     pub width_max_ndc: f32,
     /// Places around a receiver at which a soft edge is looked up. Range: 1 to 1024. Default: 1, which is exact where one
-    /// straight edge is in reach. Valient and Bujnak take four and say that more lower the errors: so it is where edges
-    /// cross, but with the profile of a disk one is nearer to the truth on the whole. A light without size asks for one.
+    /// straight edge is in reach. Valient and Bujnak take four and say that more lower the errors; with the profile of a disk
+    /// four were farther from the truth than one on all scenes that were measured. A light without size asks for one.
     pub samples: u32,
     /// How a soft edge goes from dark to lit. Default: as a disk of light does behind a straight edge.
     pub profile: EdgeProfile,
