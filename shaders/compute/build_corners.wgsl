@@ -143,7 +143,7 @@ fn find_neighbour(edge_end: EdgeEnd, quad: Quad) -> Neighbour {
         if edge_id == quad.edge_id || side == OUTLINE_NONE {
             continue;
         }
-        let direction = direction_to(edge_end, other_vertex, quad.caster);
+        let direction = direction_from(edge_end.vertex, other_vertex, quad.caster);
         if all(direction == vec2f(0.0)) || coincide(edge_end.direction, direction) {
             return NO_NEIGHBOUR;
         }
@@ -163,22 +163,8 @@ fn find_neighbour(edge_end: EdgeEnd, quad: Quad) -> Neighbour {
     return nearest;
 }
 
-// Direction of an edge from an end's vertex, found from the edge's lower vertex as its own quad finds it, so that all
-// ends agree on it to the bit.
-fn direction_to(edge_end: EdgeEnd, other_vertex: u32, caster_id: u32) -> vec2f {
-    let caster = casters[caster_id];
-    let low = scaled_position(caster, min(edge_end.vertex, other_vertex));
-    let high = scaled_position(caster, max(edge_end.vertex, other_vertex));
-    let direction = image_direction(caster_lights[caster_id].light_clip_from_object, low, high);
-    return select(-direction, direction, edge_end.vertex < other_vertex);
-}
-
 fn coincide(direction: vec2f, other: vec2f) -> bool {
     return dot(direction, other) > 1.0 - COINCIDENT;
-}
-
-fn side_of_edge(caster: Caster, edge_id: u32) -> u32 {
-    return outline_sides[caster.first_outline_word + edge_id / 16u] >> (edge_id % 16u * 2u) & 3u;
 }
 
 // How far one turns through the outside from the edge to a direction.

@@ -1,12 +1,21 @@
 // Fills the silhouette map of a light view: signed distance to the nearest outline edge that the light reaches, and its
 // depth.
-// One vertex invocation = one corner of a triangle of the rectangle around a quad's edge, as wide as distances are drawn.
-// Reads quads and the linear depth of the shadow map.
+// One vertex invocation = one corner of a triangle of the strip along a quad's edge, as wide as distances are drawn, and
+// longer by as much as no neighbour at its ends is nearer.
+// Reads quads, casters, caster_lights, positions, outline_sides, vertex_edges, and the linear depth of the shadow map.
 // Valient & Bujnak 2005, with edges that compute stages found.
 
 @group(0) @binding(0) var<uniform> view: LightView;
 @group(0) @binding(1) var<storage, read> quads: array<Quad>;
+@group(0) @binding(2) var<storage, read> casters: array<Caster>;
+@group(0) @binding(3) var<storage, read> caster_lights: array<CasterLight>;
+@group(0) @binding(4) var<storage, read> positions: array<u32>;
+@group(0) @binding(5) var<storage, read> outline_sides: array<u32>;
+@group(0) @binding(6) var<storage, read> vertex_edges: array<u32>;
 @group(1) @binding(0) var shadow_depth: texture_2d<f32>;
+
+// Strips reach so much farther, in texels, for what rounding leaves between them.
+const OVERLAP_TEXELS = 1.0;
 
 struct SilhouetteVertex {
     @builtin(position) clip: vec4f,
@@ -19,22 +28,51 @@ struct SilhouetteVertex {
 fn vertex_silhouette_quad(@builtin(vertex_index) index: u32) -> SilhouetteVertex {
     let quad = quads[index / VERTICES_PER_QUAD];
     let corner = quad_corner(index);
-    let width = max(
-        quad.width_ndc.x * widening(leaning(quad.low_ndc), quad.outward),
-        quad.width_ndc.y * widening(leaning(quad.high_ndc), quad.outward),
-    );
-    // The outward side is right of the way, or left where the blocker is on the right.
+    let width = max(widest_band(quad.q.x, quad.low_ndc), widest_band(quad.q.y, quad.high_ndc));
+    // The outward side is right of the way from low to high, or left where the blocker is on the right.
     let along = select(clockwise(quad.outward), counter_clockwise(quad.outward), quad.side == OUTLINE_BLOCKER_LEFT);
-    let ndc = select(quad.low_ndc - width * along, quad.high_ndc + width * along, corner.is_high)
-        + select(-width, width, corner.is_outer) * quad.outward;
+    let onwards = select(-along, along, corner.is_high);
+    let across = select(-quad.outward, quad.outward, corner.is_outer);
+    let beyond = width * share_beyond(quad, corner.is_high, onwards, across) + OVERLAP_TEXELS / texels_per_ndc();
+    let ndc = select(quad.low_ndc, quad.high_ndc, corner.is_high) + beyond * onwards + width * across;
     return SilhouetteVertex(drawn_at(ndc), vec4f(quad.low_ndc, quad.high_ndc), quad.outward, quad.q);
+}
+
+// How far beyond an end its vertex is the nearest point of the outline on one side, as a share of the width: up to the
+// neighbour's normal, or to a right angle from this edge's.
+fn share_beyond(quad: Quad, is_high: bool, onwards: vec2f, across: vec2f) -> f32 {
+    let caster = casters[quad.caster];
+    let vertex = select(quad.low_vertex, quad.high_vertex, is_high);
+    let offset_word = caster.first_vertex_offset_word + vertex;
+    let first = vertex_edges[offset_word];
+    let last = vertex_edges[offset_word + 1u];
+    if (quad.own_ends & select(OWN_END_LOW, OWN_END_HIGH, is_high)) == 0u || last - first > MAX_SEARCHED_VALENCE {
+        return 1.0;
+    }
+    var neighbours = 0u;
+    var share = 1.0;
+    for (var i = first; i < last; i++) {
+        let word = caster.first_vertex_edge_word + 2u * i;
+        let edge_id = vertex_edges[word];
+        if edge_id == quad.edge_id || side_of_edge(caster, edge_id) == OUTLINE_NONE {
+            continue;
+        }
+        neighbours++;
+        let direction = direction_from(vertex, vertex_edges[word + 1u], quad.caster);
+        let cosine = dot(direction, onwards);
+        let sine = dot(direction, across);
+        if cosine > 0.0 {
+            share = saturate(-sine / cosine);
+        }
+    }
+    return select(1.0, share, neighbours == 1u);
 }
 
 @fragment
 fn fragment_silhouette_quad(vertex: SilhouetteVertex) -> SilhouetteTexel {
     let edge = OutlineImage(vertex.ends_ndc.xy, vertex.ends_ndc.zw, vertex.outward, vertex.q);
     let point = nearest_point(ndc_of(vertex.clip.xy), edge);
-    if !is_in_band(point) || !is_unhidden(point) {
+    if !point.is_in_band || !is_unhidden(point) {
         discard;
     }
     return silhouette_texel(point);

@@ -132,7 +132,7 @@ fn fragment_silhouette_face(vertex: SilhouetteVertex) -> SilhouetteTexel {
         }
         let edge = OutlineImage(ends[i].xy, ends[i].zw, outwards[i].xy, outwards[i].zw);
         let point = nearest_point(place, edge);
-        if (!is_drawn || point.order < nearest.order) && is_in_band(point) && is_unhidden(point) {
+        if (!is_drawn || point.order < nearest.order) && point.is_in_band && is_unhidden(point) {
             nearest = point;
             is_drawn = true;
         }
@@ -182,8 +182,8 @@ fn reach_of(images: array<OutlineImage, 3>, outlines: u32) -> f32 {
     for (var i = 0u; i < 3u; i++) {
         if (outlines >> i & 1u) != 0u {
             let edge = images[i];
-            reach = max(reach, band_width(edge.q.x, edge.low_ndc, edge.outward));
-            reach = max(reach, band_width(edge.q.y, edge.high_ndc, edge.outward));
+            reach = max(reach, widest_band(edge.q.x, edge.low_ndc));
+            reach = max(reach, widest_band(edge.q.y, edge.high_ndc));
         }
     }
     return reach;

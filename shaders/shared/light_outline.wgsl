@@ -25,6 +25,11 @@ fn widening(place: vec2f, outward: vec2f) -> f32 {
     return sqrt(1.0 + along * along);
 }
 
+// Of a line with any normal.
+fn widest_widening(place: vec2f) -> f32 {
+    return sqrt(1.0 + dot(place, place));
+}
+
 // From such a line to the parallel one at the distance 1, the way on which alpha grows: M g, by its share along g.
 fn slant(place: vec2f, outward: vec2f) -> vec2f {
     let along = dot(place, outward);

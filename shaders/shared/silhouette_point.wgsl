@@ -18,6 +18,8 @@ struct SilhouettePoint {
     ndc: vec2f,
     outward: vec2f,
     q: f32,
+    // Whether distances are drawn so far from it.
+    is_in_band: bool,
 }
 
 struct SilhouetteTexel {
@@ -48,12 +50,17 @@ fn nearest_point(place_ndc: vec2f, edge: OutlineImage) -> SilhouettePoint {
     let distance = length(offset);
     let across = dot(offset, edge.outward);
     let slant = select(0.0, 1.0 - abs(across) / distance, distance > 0.0);
+    let q = mix(edge.q.x, edge.q.y, share);
+    // As far as the soft edge reaches of a line across the way there, of which the edge is one but for its ends.
+    let across_way = select(edge.outward, offset / distance, distance > 0.0);
+    let width = smoothie_width(q) * widening(leaning(ndc), across_way);
     return SilhouettePoint(
         select(distance, -distance, across > 0.0),
         distance + SLANT_PENALTY * slant,
         ndc,
         edge.outward,
-        mix(edge.q.x, edge.q.y, share),
+        q,
+        distance <= width * texels_per_ndc(),
     );
 }
 
@@ -61,13 +68,9 @@ fn texels_per_ndc() -> f32 {
     return 0.5 * f32(view.map_size);
 }
 
-// How far from a silhouette with this q distances are drawn, in NDC.
-fn band_width(q: f32, ndc: vec2f, outward: vec2f) -> f32 {
-    return smoothie_width(q) * widening(leaning(ndc), outward);
-}
-
-fn is_in_band(point: SilhouettePoint) -> bool {
-    return abs(point.signed_distance) <= band_width(point.q, point.ndc, point.outward) * texels_per_ndc();
+// How far from there distances are drawn at most, in NDC.
+fn widest_band(q: f32, ndc: vec2f) -> f32 {
+    return smoothie_width(q) * widest_widening(leaning(ndc));
 }
 
 // Whether the light reaches the silhouette there.

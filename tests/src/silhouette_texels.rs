@@ -1,6 +1,8 @@
 //! The silhouette map by definition: what the raster pass draws from quads, in 64-bit floats.
 
-use contrejour_layout::{LightView, Quad};
+use std::collections::HashMap;
+
+use contrejour_layout::{LightView, OUTLINE_BLOCKER_LEFT, OWN_END_HIGH, OWN_END_LOW, Quad};
 use glam::DVec2;
 
 /// What a texel of a silhouette map holds.
@@ -57,14 +59,21 @@ struct Candidate {
     texel: SilhouetteTexel,
 }
 
+/// The outline edges at each vertex of each caster, with their directions from there.
+type Fans = HashMap<[u32; 2], Vec<(u32, DVec2)>>;
+
 impl Definition<'_> {
     /// What each texel may hold, row by row.
     pub fn texels(&self, quads: &[Quad]) -> Vec<Expected> {
+        let fans = fans(quads);
         let side = self.record.map_size as usize;
         let mut all: Vec<Vec<Candidate>> = (0..side * side).map(|_| Vec::new()).collect();
         for quad in quads {
             let [low, high] = [quad.low_ndc, quad.high_ndc].map(vector);
-            let width = (0..2).map(|end| self.width([low, high][end], vector(quad.outward), quad.q[end].into()));
+            let width = (0..2).map(|end| {
+                let place = [low, high][end];
+                self.width(place, place.normalize_or_zero(), quad.q[end].into())
+            });
             let reach = DVec2::splat(width.fold(0.0, f64::max));
             let [first, last] = [self.texel_of(low.min(high) - reach), self.texel_of(low.max(high) + reach)];
             let most = side as f64 - 1.0;
@@ -72,13 +81,13 @@ impl Definition<'_> {
             let rows = last.y.floor().clamp(0.0, most) as usize..=first.y.floor().clamp(0.0, most) as usize;
             for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
                 let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-                all[row * side + column].extend(self.candidate(quad, place));
+                all[row * side + column].extend(self.candidate(quad, &fans, place));
             }
         }
         all.into_iter().map(expected).collect()
     }
 
-    fn candidate(&self, quad: &Quad, texel: DVec2) -> Option<Candidate> {
+    fn candidate(&self, quad: &Quad, fans: &Fans, texel: DVec2) -> Option<Candidate> {
         let texels_per_ndc = 0.5 * f64::from(self.record.map_size);
         let place = (texel / f64::from(self.record.map_size) - 0.5) * DVec2::new(2.0, -2.0);
         let [low, high, outward] = [quad.low_ndc, quad.high_ndc, quad.outward].map(vector);
@@ -93,13 +102,16 @@ impl Definition<'_> {
         let slant = if distance > 0.0 { 1.0 - across.abs() / distance } else { 0.0 };
         let q = f64::from(quad.q[0]) + share * (f64::from(quad.q[1]) - f64::from(quad.q[0]));
         let depth = self.depth_of_q(q);
-        let width = self.width(nearest, outward, q) * texels_per_ndc;
+        let across_way = if distance > 0.0 { offset / distance } else { outward };
+        let width = self.width(nearest, across_way, q) * texels_per_ndc;
         let is_near = compared(width - distance, TIE_TEXELS);
-        let answer = match (is_near, self.is_unhidden(nearest, outward, depth)) {
-            (Answer::No, _) | (_, Answer::No) => return None,
-            (Answer::Yes, Answer::Yes) => Answer::Yes,
-            _ => Answer::Perhaps,
-        };
+        // Beyond an end where another edge is nearer, that other one draws.
+        let is_nearest = if is_beyond(quad, share, offset, fans) { Answer::Perhaps } else { Answer::Yes };
+        let answers = [is_near, self.is_unhidden(nearest, outward, depth), is_nearest];
+        if answers.contains(&Answer::No) {
+            return None;
+        }
+        let answer = if answers.contains(&Answer::Perhaps) { Answer::Perhaps } else { Answer::Yes };
         let signed_distance = if across > 0.0 { -distance } else { distance };
         let texel = SilhouetteTexel { depth, signed_distance };
         Some(Candidate { order: distance + SLANT_PENALTY * slant, answer, texel })
@@ -137,6 +149,33 @@ impl Definition<'_> {
     fn depth_of_q(&self, q: f64) -> f64 {
         if self.record.perspective == 1 { -1.0 / q } else { q }
     }
+}
+
+fn fans(quads: &[Quad]) -> Fans {
+    let mut fans = Fans::new();
+    for quad in quads {
+        let outward = vector(quad.outward);
+        let along = if quad.side == OUTLINE_BLOCKER_LEFT { outward.perp() } else { -outward.perp() };
+        for (flag, vertex, direction) in
+            [(OWN_END_LOW, quad.low_vertex, along), (OWN_END_HIGH, quad.high_vertex, -along)]
+        {
+            if quad.own_ends & flag != 0 {
+                fans.entry([quad.caster, vertex]).or_default().push((quad.edge_id, direction));
+            }
+        }
+    }
+    fans
+}
+
+/// Whether a texel that has an end of an edge nearest has another edge at this end nearer.
+fn is_beyond(quad: &Quad, share: f64, offset: DVec2, fans: &Fans) -> bool {
+    let vertex = match share {
+        0.0 => quad.low_vertex,
+        1.0 => quad.high_vertex,
+        _ => return false,
+    };
+    let fan = fans.get(&[quad.caster, vertex]).map_or(&[][..], Vec::as_slice);
+    fan.iter().any(|(edge_id, direction)| *edge_id != quad.edge_id && offset.dot(*direction) > 0.0)
 }
 
 /// Whether a difference is positive.

@@ -8,12 +8,15 @@ pub(super) const SILHOUETTE_MAP: MapPass = MapPass {
     pass: Pass::SilhouetteMap,
     wgsl: wgsl!(
         "raster/silhouette_map",
+        "topology",
         "light",
         "light_outline",
         "args",
         "outline",
         "quad_corner",
+        "caster_position",
         "image_plane",
+        "outline_end",
         "power_of_two",
         "view_depth",
         "silhouette_point"

@@ -16,6 +16,7 @@ pub(super) const BUILD_CORNERS: ComputeStage = ComputeStage {
         "atomic_counters",
         "caster_position",
         "image_plane",
+        "outline_end",
         "power_of_two",
         "view_depth"
     ),

@@ -81,7 +81,9 @@ impl Pass {
             Self::Moments => &[LightView],
             Self::BlurredMoments => &[],
             Self::SmoothieDepth | Self::SmoothieAlpha | Self::SmoothieBuffer => &[LightView, Quads, Corners, DrawArgs],
-            Self::SilhouetteMap => &[LightView, Quads, DrawArgs],
+            Self::SilhouetteMap => {
+                &[LightView, Quads, Casters, CasterLights, Positions, OutlineSides, VertexEdges, DrawArgs]
+            }
             Self::SilhouetteMapTam => {
                 &[LightView, FaceItems, Casters, CasterLights, Faces, FaceNeighbours, Positions, DrawArgs]
             }
