@@ -70,10 +70,23 @@ fn share_beyond(quad: Quad, is_high: bool, onwards: vec2f, across: vec2f) -> f32
 
 @fragment
 fn fragment_silhouette_quad(vertex: SilhouetteVertex) -> SilhouetteTexel {
-    let edge = OutlineImage(vertex.ends_ndc.xy, vertex.ends_ndc.zw, vertex.outward, vertex.q);
-    let point = nearest_point(ndc_of(vertex.clip.xy), edge);
-    if !point.is_in_band || !is_unhidden(point) {
+    let point = nearest_of_quad(vertex);
+    if !is_drawn(point) {
         discard;
     }
-    return silhouette_texel(point);
+    return SilhouetteTexel(order_as_depth(point), vec2f(depth_to_keep(point), point.signed_distance));
+}
+
+@fragment
+fn fragment_blended_silhouette_quad(vertex: SilhouetteVertex) -> @location(0) vec2f {
+    let point = nearest_of_quad(vertex);
+    if !is_drawn(point) {
+        discard;
+    }
+    return vec2f(depth_to_keep(point), abs(point.signed_distance));
+}
+
+fn nearest_of_quad(vertex: SilhouetteVertex) -> SilhouettePoint {
+    let edge = OutlineImage(vertex.ends_ndc.xy, vertex.ends_ndc.zw, vertex.outward, vertex.q);
+    return nearest_point(ndc_of(vertex.clip.xy), edge);
 }

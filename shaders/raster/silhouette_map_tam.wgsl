@@ -121,26 +121,40 @@ fn vertex_silhouette_face(@builtin(vertex_index) index: u32) -> SilhouetteVertex
 
 @fragment
 fn fragment_silhouette_face(vertex: SilhouetteVertex) -> SilhouetteTexel {
+    var point: SilhouettePoint;
+    if !nearest_of_face(vertex, &point) {
+        discard;
+    }
+    return SilhouetteTexel(order_as_depth(point), vec2f(depth_to_keep(point), point.signed_distance));
+}
+
+@fragment
+fn fragment_blended_silhouette_face(vertex: SilhouetteVertex) -> @location(0) vec2f {
+    var point: SilhouettePoint;
+    if !nearest_of_face(vertex, &point) {
+        discard;
+    }
+    return vec2f(depth_to_keep(point), abs(point.signed_distance));
+}
+
+// Finds the nearest point of the outline edges; false where none is drawn.
+fn nearest_of_face(vertex: SilhouetteVertex, nearest: ptr<function, SilhouettePoint>) -> bool {
     let ends = array<vec4f, 3>(vertex.ends_ab, vertex.ends_bc, vertex.ends_ca);
     let outwards = array<vec4f, 3>(vertex.outward_and_q_ab, vertex.outward_and_q_bc, vertex.outward_and_q_ca);
     let place = ndc_of(vertex.clip.xy);
-    var nearest: SilhouettePoint;
-    var is_drawn = false;
+    var is_any_drawn = false;
     for (var i = 0u; i < 3u; i++) {
         if (vertex.outlines >> i & 1u) == 0u {
             continue;
         }
         let edge = OutlineImage(ends[i].xy, ends[i].zw, outwards[i].xy, outwards[i].zw);
         let point = nearest_point(place, edge);
-        if (!is_drawn || point.order < nearest.order) && point.is_in_band && is_unhidden(point) {
-            nearest = point;
-            is_drawn = true;
+        if (!is_any_drawn || point.order < (*nearest).order) && is_drawn(point) {
+            *nearest = point;
+            is_any_drawn = true;
         }
     }
-    if !is_drawn {
-        discard;
-    }
-    return silhouette_texel(nearest);
+    return is_any_drawn;
 }
 
 // Whether a face shows the light its front: whether its image runs counter-clockwise, also where it crosses the light's

@@ -73,7 +73,11 @@ fn widest_band(q: f32, ndc: vec2f) -> f32 {
     return smoothie_width(q) * widest_widening(leaning(ndc));
 }
 
-// Whether the light reaches the silhouette there.
+// Whether distances are drawn so far from it, and the light reaches it.
+fn is_drawn(point: SilhouettePoint) -> bool {
+    return point.is_in_band && is_unhidden(point);
+}
+
 fn is_unhidden(point: SilhouettePoint) -> bool {
     let outside = texel_of(point.ndc) + vec2f(point.outward.x, -point.outward.y) * JUST_OUTSIDE_TEXELS;
     let last = vec2f(f32(view.map_size) - 1.0);
@@ -82,10 +86,13 @@ fn is_unhidden(point: SilhouettePoint) -> bool {
     return depth <= nearest + view.bias_smoothie_texels * texel_footprint(depth);
 }
 
-fn silhouette_texel(point: SilhouettePoint) -> SilhouetteTexel {
-    // From 0 at the silhouette up to 1 far away.
-    let order = point.order / (1.0 + point.order);
-    return SilhouetteTexel(order, vec2f(depth_of_q(point.q) / view.depth_unit, point.signed_distance));
+// From 0 at the silhouette up to 1 far away.
+fn order_as_depth(point: SilhouettePoint) -> f32 {
+    return point.order / (1.0 + point.order);
+}
+
+fn depth_to_keep(point: SilhouettePoint) -> f32 {
+    return depth_of_q(point.q) / view.depth_unit;
 }
 
 // NDC of a fragment, and the other way round: y points down in a texture.

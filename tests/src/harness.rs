@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 
-use crate::gpu::{Gpu, gpu, is_required};
+use crate::gpu::{Gpu, gpu, gpu_blending_floats, is_required};
 use crate::meshes::shared_folder;
 
 /// What a test returns: the first difference, in words.
@@ -14,6 +14,20 @@ pub type Outcome = Result<(), String>;
 /// A test that needs the device. Without one it is ignored with the reason, or fails where a device is required.
 pub fn gpu_trial(name: impl Into<String>, test: impl FnOnce(&'static Gpu) -> Outcome + Send + 'static) -> Trial {
     Trial::ignorable_test(name, move || on_gpu(test))
+}
+
+/// A test that needs a device that blends 32-bit floats. Without the feature it is ignored with the reason.
+pub fn float_blending_trial(
+    name: impl Into<String>,
+    test: impl FnOnce(&'static Gpu) -> Outcome + Send + 'static,
+) -> Trial {
+    Trial::ignorable_test(name, move || {
+        on_gpu(|_| Ok(()))?;
+        match gpu_blending_floats() {
+            Ok(gpu) => test(gpu).map(|()| Completion::Completed).map_err(Failed::from),
+            Err(reason) => Ok(Completion::ignored_with(reason)),
+        }
+    })
 }
 
 /// A test that needs the device and the folder of real meshes. Without the folder it is ignored with the reason.

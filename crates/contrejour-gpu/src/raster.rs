@@ -267,6 +267,9 @@ const MINIMUM: wgpu::BlendComponent = wgpu::BlendComponent {
 /// Alpha of a texel without a smoothie.
 const LIT: f64 = 1.0;
 
+/// Distance to a silhouette of a texel without one: the largest number of a 16-bit float.
+const FAR_TEXELS: f64 = 65504.0;
+
 fn load_color(clear: ClearColor, view: &LightView) -> wgpu::LoadOp<wgpu::Color> {
     let far_depth = f64::from(view.far_depth) / f64::from(view.depth_unit);
     let (r, g) = match clear {
@@ -276,6 +279,7 @@ fn load_color(clear: ClearColor, view: &LightView) -> wgpu::LoadOp<wgpu::Color> 
         ClearColor::FarDepth => (far_depth, 0.0),
         ClearColor::Lit => (LIT, 0.0),
         ClearColor::FarDepthAndLit => (far_depth, LIT),
+        ClearColor::FarDepthAndDistance => (far_depth, FAR_TEXELS),
     };
     wgpu::LoadOp::Clear(wgpu::Color { r, g, b: 0.0, a: 0.0 })
 }

@@ -20,7 +20,7 @@ use contrejour_plan::{
 };
 use contrejour_tests::ask::{Point, visibility_at};
 use contrejour_tests::gpu::Gpu;
-use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
+use contrejour_tests::harness::{Outcome, cpu_trial, float_blending_trial, gpu_trial};
 use contrejour_tests::lights::lights;
 use contrejour_tests::meshes::{self, TestMesh, TestPart};
 use contrejour_tests::pipeline::Pipeline;
@@ -49,12 +49,22 @@ pub fn trials() -> Vec<Trial> {
             gpu_trial(name, move |gpu| as_defined_from_both_sources(gpu, &mesh))
         })
         .collect();
+    trials.push(float_blending_trial(
+        "silhouette_maps::blended_ones_hold_the_least_distance",
+        blended_ones_hold_the_least_distance,
+    ));
+    trials.push(cpu_trial(
+        "silhouette_maps::comparer_of_blended_ones_finds_planted_faults",
+        comparer_of_blended_ones_finds_planted_faults,
+    ));
     trials.push(cpu_trial("silhouette_maps::comparer_finds_planted_faults", comparer_finds_planted_faults));
     trials.push(gpu_trial("silhouette_maps::soft_edges_are_those_of_a_disk", soft_edges_are_those_of_a_disk));
     trials.push(gpu_trial("silhouette_maps::a_shadow_within_another_has_no_edge", a_shadow_within_another_has_no_edge));
     trials.push(gpu_trial("silhouette_maps::a_lit_face_has_no_dark_rim", a_lit_face_has_no_dark_rim));
     trials
 }
+
+const SOURCES: [SilhouetteSource; 2] = [SilhouetteSource::Stages, SilhouetteSource::Faces];
 
 type Map = Vec<Option<SilhouetteTexel>>;
 
@@ -68,16 +78,15 @@ struct Counts {
 }
 
 fn as_defined_from_both_sources(gpu: &Gpu, mesh: &TestMesh) -> Outcome {
-    let mut both = [SilhouetteSource::Stages, SilhouetteSource::Faces].map(|source| Drawn::new(gpu, mesh, source));
+    let mut both = SOURCES.map(|source| Drawn::new(gpu, mesh, settings(source)));
     let all = lights(mesh);
     let mut counts: [Counts; 2] = Default::default();
     for light in [0, 3, 8, 12, 13, 20, 26, 30].map(|index| &all[index]) {
         let view = views(light).map_err(|error| error.to_string())?[0];
         let mut expected = None;
-        for (drawn, counts) in both.iter_mut().zip(&mut counts) {
+        for ((drawn, counts), source) in both.iter_mut().zip(&mut counts).zip(SOURCES) {
             let drawn = drawn.as_mut().map_err(|error| error.clone())?;
             let Some(map) = drawn.map(light, &view)? else { continue };
-            let source = drawn.source;
             let expected = match &mut expected {
                 Some(expected) => &*expected,
                 none => none.insert(drawn.definition(&view)?),
@@ -96,7 +105,7 @@ fn as_defined_from_both_sources(gpu: &Gpu, mesh: &TestMesh) -> Outcome {
 /// A mesh whose silhouettes come from one source.
 struct Drawn<'a> {
     gpu: &'a Gpu,
-    source: SilhouetteSource,
+    settings: ShadowSettings,
     pipeline: Pipeline<'a>,
 }
 
@@ -106,9 +115,9 @@ fn settings(source: SilhouetteSource) -> ShadowSettings {
 }
 
 impl<'a> Drawn<'a> {
-    fn new(gpu: &'a Gpu, mesh: &TestMesh, source: SilhouetteSource) -> Result<Self, String> {
-        let options = ShadowOptions { settings: settings(source), ..Default::default() };
-        Ok(Self { gpu, source, pipeline: Pipeline::new(gpu, mesh, &options)? })
+    fn new(gpu: &'a Gpu, mesh: &TestMesh, settings: ShadowSettings) -> Result<Self, String> {
+        let options = ShadowOptions { settings, ..Default::default() };
+        Ok(Self { gpu, settings, pipeline: Pipeline::new(gpu, mesh, &options)? })
     }
 
     /// The map of a light; `None` where nothing casts.
@@ -125,7 +134,7 @@ impl<'a> Drawn<'a> {
 
     /// What the map of the stages' last frame may hold.
     fn definition(&self, view: &View) -> Result<Vec<Expected>, String> {
-        let record = view.light_view(&settings(self.source), &ViewCounts::default());
+        let record = view.light_view(&self.settings, &ViewCounts::default());
         let depth = self.pipeline.maps().shadow_depth.ok_or("there is no shadow map")?;
         let shadow_depth = &read_floats(self.gpu, depth);
         Ok(Definition { record: &record, shadow_depth }.texels(&self.pipeline.quads()))
@@ -221,6 +230,60 @@ fn near_segment([low, high]: [DVec4; 2], record: &LightView) -> Vec<usize> {
         place.distance(begin + share * along) <= reach
     };
     (0..(side * side) as usize).filter(|index| near(*index)).collect()
+}
+
+/// Blending leaves the distance of the nearest silhouette, without its side, and a depth that is not more than its depth.
+fn blended_ones_hold_the_least_distance(gpu: &Gpu) -> Outcome {
+    for mesh in meshes::shapes() {
+        let light = &lights(&mesh)[8];
+        let view = views(light).map_err(|error| error.to_string())?[0];
+        for source in SOURCES {
+            let by_depth = settings(source);
+            let mut by_blending = by_depth;
+            by_blending.technique.set("blending", 1.0).map_err(|error| error.to_string())?;
+            let exact = Drawn::new(gpu, &mesh, by_depth)?.map(light, &view)?.ok_or("nothing casts")?;
+            let blended = Drawn::new(gpu, &mesh, by_blending)?.map(light, &view)?.ok_or("nothing casts")?;
+            compare_blended(&blended, &exact)
+                .map_err(|difference| format!("{}, {source:?}: {difference}", mesh.name))?;
+        }
+    }
+    Ok(())
+}
+
+fn compare_blended(blended: &Map, exact: &Map) -> Outcome {
+    let is_least = |blended: &SilhouetteTexel, exact: &SilhouetteTexel| {
+        (blended.signed_distance - exact.signed_distance.abs()).abs() <= DISTANCE_ROUNDING
+            && blended.depth <= exact.depth
+    };
+    for (index, texels) in blended.iter().zip(exact).enumerate() {
+        let is_good = match texels {
+            (Some(blended), Some(exact)) => is_least(blended, exact),
+            (None, None) => true,
+            _ => false,
+        };
+        if !is_good {
+            return Err(format!("texel {index}: {texels:?}"));
+        }
+    }
+    Ok(())
+}
+
+fn comparer_of_blended_ones_finds_planted_faults() -> Outcome {
+    let texel = |depth: f64, signed_distance: f64| Some(SilhouetteTexel { depth, signed_distance });
+    let exact: Map = vec![None, texel(2.0, -0.5)];
+    compare_blended(&vec![None, texel(1.5, 0.5)], &exact)?;
+    let faults = [
+        vec![texel(2.0, 0.5), texel(2.0, 0.5)],
+        vec![None, None],
+        vec![None, texel(2.0, -0.5)],
+        vec![None, texel(2.0, 0.6)],
+        vec![None, texel(2.1, 0.5)],
+        vec![None, texel(f64::NAN, 0.5)],
+    ];
+    match faults.into_iter().find(|fault| compare_blended(fault, &exact).is_ok()) {
+        Some(fault) => Err(format!("not found: {fault:?}")),
+        None => Ok(()),
+    }
 }
 
 fn comparer_finds_planted_faults() -> Outcome {

@@ -17,8 +17,8 @@ use contrejour_gpu::ShadowOptions;
 use contrejour_plan::{
     Light, Projection, ShadowSettings, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, View, views,
 };
-use contrejour_tests::gpu::{Gpu, gpu_blending_floats};
-use contrejour_tests::harness::{Outcome, cpu_trial, gpu_trial};
+use contrejour_tests::gpu::Gpu;
+use contrejour_tests::harness::{Outcome, cpu_trial, float_blending_trial};
 use contrejour_tests::lights::{direction, point};
 use contrejour_tests::meshes::{TestMesh, shapes};
 use contrejour_tests::pipeline::Pipeline;
@@ -42,13 +42,7 @@ const MAP_SIZE: u32 = 256;
 
 pub fn trials() -> Vec<Trial> {
     vec![
-        gpu_trial("smoothie_ways::one_pass_and_two_leave_the_same_map", |_| match gpu_blending_floats() {
-            Ok(gpu) => one_pass_and_two_leave_the_same_map(gpu),
-            Err(reason) => {
-                eprintln!("not tested: {reason}");
-                Ok(())
-            }
-        }),
+        float_blending_trial("smoothie_ways::one_pass_and_two_leave_the_same_map", one_pass_and_two_leave_the_same_map),
         cpu_trial("smoothie_ways::comparer_finds_planted_faults", comparer_finds_planted_faults),
     ]
 }

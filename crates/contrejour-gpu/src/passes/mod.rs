@@ -78,6 +78,8 @@ pub enum ClearColor {
     Lit,
     /// Both, in two channels.
     FarDepthAndLit,
+    /// The farthest depth of the view, and a distance that no silhouette has.
+    FarDepthAndDistance,
 }
 
 /// A depth buffer of a pass.
@@ -103,7 +105,7 @@ pub enum DepthKept {
 }
 
 /// All passes over a light view's maps, in the order in which a frame runs them.
-pub const ALL: [MapPass; 11] = [
+pub const ALL: [MapPass; 13] = [
     hardware_shadow_map::HARDWARE_SHADOW_MAP,
     shadow_map::SHADOW_MAP,
     masked_hardware_shadow_map::MASKED_HARDWARE_SHADOW_MAP,
@@ -115,6 +117,8 @@ pub const ALL: [MapPass; 11] = [
     smoothie_buffer::SMOOTHIE_BUFFER,
     silhouette_map::SILHOUETTE_MAP,
     silhouette_map_tam::SILHOUETTE_MAP_TAM,
+    silhouette_map::BLENDED_SILHOUETTE_MAP,
+    silhouette_map_tam::BLENDED_SILHOUETTE_MAP_TAM,
 ];
 
 const SHADOW_MAP_WGSL: &str = wgsl!(

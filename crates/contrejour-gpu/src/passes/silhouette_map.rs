@@ -27,3 +27,15 @@ pub(super) const SILHOUETTE_MAP: MapPass = MapPass {
     color: Some(ColorTarget { texture: TextureKind::SilhouetteMap, clear: ClearColor::FarDepth, minimum: false }),
     depth: Some(DepthTarget { texture: TextureKind::SilhouetteOrder, is_drawn: false, kept: DepthKept::Never }),
 };
+
+/// Least distance to silhouettes and their least depth, from quads.
+pub(super) const BLENDED_SILHOUETTE_MAP: MapPass = MapPass {
+    pass: Pass::BlendedSilhouetteMap,
+    color: Some(ColorTarget {
+        texture: TextureKind::SilhouetteMap,
+        clear: ClearColor::FarDepthAndDistance,
+        minimum: true,
+    }),
+    depth: None,
+    ..SILHOUETTE_MAP
+};

@@ -25,3 +25,15 @@ pub(super) const SILHOUETTE_MAP_TAM: MapPass = MapPass {
     color: Some(ColorTarget { texture: TextureKind::SilhouetteMap, clear: ClearColor::FarDepth, minimum: false }),
     depth: Some(DepthTarget { texture: TextureKind::SilhouetteOrder, is_drawn: false, kept: DepthKept::Never }),
 };
+
+/// Least distance to silhouettes and their least depth, from faces that the vertex stage finds to have outline edges.
+pub(super) const BLENDED_SILHOUETTE_MAP_TAM: MapPass = MapPass {
+    pass: Pass::BlendedSilhouetteMapTam,
+    color: Some(ColorTarget {
+        texture: TextureKind::SilhouetteMap,
+        clear: ClearColor::FarDepthAndDistance,
+        minimum: true,
+    }),
+    depth: None,
+    ..SILHOUETTE_MAP_TAM
+};

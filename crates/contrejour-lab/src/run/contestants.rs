@@ -149,6 +149,20 @@ const FAMILIES: &[Family] = &[
         swept: &[sweep("samples", &[1.0, 4.0], 1)],
         depth_bits: BITS_32,
     },
+    Family {
+        name: "blended silhouette map",
+        technique: "silhouette-map",
+        fixed: &[("blending", 1.0)],
+        swept: &[],
+        depth_bits: BOTH_BITS,
+    },
+    Family {
+        name: "blended silhouette map TAM",
+        technique: "silhouette-map-tam",
+        fixed: &[("blending", 1.0)],
+        swept: &[],
+        depth_bits: BITS_32,
+    },
 ];
 
 /// All entrants of an extent that were asked for, by the name of their technique or family; all where no name is given.

@@ -3,8 +3,8 @@
 use super::plan::has_size;
 use super::{BufferKind, CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
 use crate::{
-    DepthPrecision, ObjectBox, SilhouetteSource, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique,
-    object_light,
+    DepthPrecision, ObjectBox, SilhouetteMapSettings, SilhouetteSource, SilhouetteWinner, SmoothieBlend,
+    SmoothieSettings, SmoothieWidth, Technique, object_light,
 };
 
 /// The passes that one technique or another can do without, those of outlines apart, and why; masked ones as those that they follow.
@@ -39,14 +39,14 @@ impl LeftOutList {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Outlines {
     Smoothies(SmoothieSettings),
-    SilhouetteMap(SilhouetteSource),
+    SilhouetteMap(SilhouetteMapSettings),
 }
 
 /// The outlines of the frame, where there is any reason to draw them.
 pub(super) fn outlines_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList) -> Option<Outlines> {
     let asked_for = match input.settings.technique {
         Technique::Smoothies(smoothies) => Some(Outlines::Smoothies(smoothies)),
-        Technique::SilhouetteMap(silhouettes) => Some(Outlines::SilhouetteMap(silhouettes.source)),
+        Technique::SilhouetteMap(silhouettes) => Some(Outlines::SilhouetteMap(silhouettes)),
         _ => None,
     };
     let needs_size = matches!(asked_for, Some(Outlines::Smoothies(of)) if of.width == SmoothieWidth::FromLightSize);
@@ -71,15 +71,13 @@ pub(super) fn outlines_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList)
     }
     match wanted {
         Some(Outlines::Smoothies(_)) => {}
-        Some(Outlines::SilhouetteMap(SilhouetteSource::Stages)) => {
-            left_out.add(Omitted::CornerStage, Reason::QuadsReachAroundEnds);
-            left_out.add(Omitted::Pass(Pass::SilhouetteMapTam), Reason::StagesFindThem);
-        }
-        Some(Outlines::SilhouetteMap(SilhouetteSource::Faces)) => {
-            left_out.add(Omitted::DetectionStages, Reason::VertexStageFindsThem);
-            left_out.add(Omitted::ExtrusionStages, Reason::VertexStageFindsThem);
-            left_out.add(Omitted::Pass(Pass::SilhouetteMap), Reason::VertexStageFindsThem);
-        }
+        Some(Outlines::SilhouetteMap(silhouettes)) => match silhouettes.source {
+            SilhouetteSource::Stages => left_out.add(Omitted::CornerStage, Reason::QuadsReachAroundEnds),
+            SilhouetteSource::Faces => {
+                left_out.add(Omitted::DetectionStages, Reason::VertexStageFindsThem);
+                left_out.add(Omitted::ExtrusionStages, Reason::VertexStageFindsThem);
+            }
+        },
         None => {
             let reason = reason.unwrap_or(Reason::TechniqueHasNoSilhouettes);
             left_out.add(Omitted::ExtrusionStages, reason);
@@ -96,10 +94,14 @@ pub(super) fn outlines_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList)
 pub(super) fn stages(input: &PlanInput<'_>, outlines: Option<&Outlines>, left_out: &mut LeftOutList) -> Vec<Stage> {
     match outlines {
         Some(Outlines::Smoothies(_)) => return Stage::ALL.to_vec(),
-        Some(Outlines::SilhouetteMap(SilhouetteSource::Stages)) => {
-            return Stage::ALL.into_iter().filter(|stage| *stage != Stage::BuildCorners).collect();
+        Some(Outlines::SilhouetteMap(silhouettes)) => {
+            return match silhouettes.source {
+                SilhouetteSource::Stages => {
+                    Stage::ALL.into_iter().filter(|stage| *stage != Stage::BuildCorners).collect()
+                }
+                SilhouetteSource::Faces => Stage::PLACEMENT.to_vec(),
+            };
         }
-        Some(Outlines::SilhouetteMap(SilhouetteSource::Faces)) => return Stage::PLACEMENT.to_vec(),
         None => {}
     }
     if nothing_casts(input.scene) {
@@ -137,8 +139,7 @@ pub(super) fn passes(input: &PlanInput<'_>, outlines: Option<&Outlines>, left_ou
         passes.extend(with_masked(Pass::ShadowMap, Pass::MaskedShadowMap));
         match outlines {
             Outlines::Smoothies(smoothies) => passes.extend(smoothie_passes(input, smoothies, left_out)),
-            Outlines::SilhouetteMap(SilhouetteSource::Stages) => passes.push(Pass::SilhouetteMap),
-            Outlines::SilhouetteMap(SilhouetteSource::Faces) => passes.push(Pass::SilhouetteMapTam),
+            Outlines::SilhouetteMap(silhouettes) => passes.push(silhouette_pass(input, silhouettes, left_out)),
         }
     } else if let Technique::Variance(_) = input.settings.technique {
         passes.extend(with_masked(Pass::ShadowMap, Pass::MaskedShadowMap));
@@ -191,6 +192,30 @@ fn smoothie_passes(input: &PlanInput<'_>, smoothies: &SmoothieSettings, left_out
     left_out.add(Omitted::Pass(Pass::SmoothieDepth), reason);
     left_out.add(Omitted::Pass(Pass::SmoothieAlpha), reason);
     &[Pass::SmoothieBuffer]
+}
+
+/// The pass that fills the silhouette map.
+fn silhouette_pass(input: &PlanInput<'_>, silhouettes: &SilhouetteMapSettings, left_out: &mut LeftOutList) -> Pass {
+    let blends = input.settings.depth_precision == DepthPrecision::Bits16 || input.device.float32_blendable;
+    let (is_blended, not_otherwise) = match silhouettes.winner {
+        SilhouetteWinner::ByDepth => (false, Reason::DepthTellsTheNearest),
+        SilhouetteWinner::ByBlending if blends => (true, Reason::BlendingAskedFor),
+        SilhouetteWinner::ByBlending => (false, Reason::DeviceBlendsNoFloats),
+    };
+    let by_depth = [Pass::SilhouetteMap, Pass::SilhouetteMapTam];
+    let by_blending = [Pass::BlendedSilhouetteMap, Pass::BlendedSilhouetteMapTam];
+    let ([stages, faces], others) = if is_blended { (by_blending, by_depth) } else { (by_depth, by_blending) };
+    left_out.all(others.into_iter().map(Omitted::Pass), not_otherwise);
+    match silhouettes.source {
+        SilhouetteSource::Stages => {
+            left_out.add(Omitted::Pass(faces), Reason::StagesFindThem);
+            stages
+        }
+        SilhouetteSource::Faces => {
+            left_out.add(Omitted::Pass(stages), Reason::VertexStageFindsThem);
+            faces
+        }
+    }
 }
 
 /// Indices of the casters that have work items.

@@ -74,6 +74,10 @@ pub enum Reason {
     StagesFindThem,
     /// The vertex stage of the pass finds silhouettes.
     VertexStageFindsThem,
+    /// Depth that fragments write tells the nearest silhouette.
+    DepthTellsTheNearest,
+    /// The settings ask for the least distance by blending.
+    BlendingAskedFor,
     /// Quads that reach around the ends of their edges leave no gap.
     QuadsReachAroundEnds,
     /// The shadow is as soft as the light's size asks, and it has none.
@@ -162,6 +166,8 @@ impl fmt::Display for Reason {
             Self::TechniqueHasNoSilhouettes => "the technique looks at no silhouettes",
             Self::StagesFindThem => "compute stages find silhouettes",
             Self::VertexStageFindsThem => "the vertex stage finds silhouettes",
+            Self::DepthTellsTheNearest => "depth that fragments write tells the nearest silhouette",
+            Self::BlendingAskedFor => "the settings ask for the least distance by blending",
             Self::QuadsReachAroundEnds => "quads reach around the ends of their edges",
             Self::LightHasNoSize => "the shadow is as soft as the light's size asks, and it has none",
             Self::TechniqueHasNoMoments => "the technique reads no moments of depth",
@@ -176,7 +182,7 @@ impl fmt::Display for Reason {
             Self::NoVisibilityTextureWanted => "the maps are looked up in the caller's own shader",
             Self::NothingCasts => "no mesh with a face casts",
             Self::DeviceBlendsFloats => "the device blends 32-bit floats: one pass fills depth and alpha",
-            Self::DeviceBlendsNoFloats => "the device does not blend 32-bit floats: two passes fill depth and alpha",
+            Self::DeviceBlendsNoFloats => "the device does not blend 32-bit floats",
             Self::TwoPassesAskedFor => "the settings ask for two passes",
             Self::OutsideFrustum => "outside the light's frustum, smoothies included",
             Self::SingularMatrix => "its matrix is singular for this light",

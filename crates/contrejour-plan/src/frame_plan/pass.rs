@@ -30,13 +30,17 @@ pub enum Pass {
     SilhouetteMap,
     /// The same, from faces that the vertex stage finds to have outline edges.
     SilhouetteMapTam,
+    /// Least distance to silhouettes and their least depth, from quads.
+    BlendedSilhouetteMap,
+    /// The same, from faces that the vertex stage finds to have outline edges.
+    BlendedSilhouetteMapTam,
     /// Visibility of each pixel of the caller's depth buffer, in a target of the caller's.
     Visibility,
 }
 
 impl Pass {
     /// All passes in the order in which a frame runs them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::HardwareShadowMap,
         Self::ShadowMap,
         Self::MaskedHardwareShadowMap,
@@ -48,6 +52,8 @@ impl Pass {
         Self::SmoothieBuffer,
         Self::SilhouetteMap,
         Self::SilhouetteMapTam,
+        Self::BlendedSilhouetteMap,
+        Self::BlendedSilhouetteMapTam,
         Self::Visibility,
     ];
 
@@ -65,6 +71,8 @@ impl Pass {
             Self::SmoothieBuffer => "smoothie_buffer",
             Self::SilhouetteMap => "silhouette_map",
             Self::SilhouetteMapTam => "silhouette_map_tam",
+            Self::BlendedSilhouetteMap => "blended_silhouette_map",
+            Self::BlendedSilhouetteMapTam => "blended_silhouette_map_tam",
             Self::Visibility => "visibility",
         }
     }
@@ -81,10 +89,10 @@ impl Pass {
             Self::Moments => &[LightView],
             Self::BlurredMoments => &[],
             Self::SmoothieDepth | Self::SmoothieAlpha | Self::SmoothieBuffer => &[LightView, Quads, Corners, DrawArgs],
-            Self::SilhouetteMap => {
+            Self::SilhouetteMap | Self::BlendedSilhouetteMap => {
                 &[LightView, Quads, Casters, CasterLights, Positions, OutlineSides, VertexEdges, DrawArgs]
             }
-            Self::SilhouetteMapTam => {
+            Self::SilhouetteMapTam | Self::BlendedSilhouetteMapTam => {
                 &[LightView, FaceItems, Casters, CasterLights, Faces, FaceNeighbours, Positions, DrawArgs]
             }
             Self::Visibility => &[ReceiverView],
@@ -101,6 +109,7 @@ impl Pass {
             Self::SmoothieAlpha => &[TextureKind::SmoothieAlpha],
             Self::SmoothieBuffer => &[TextureKind::SmoothieBuffer],
             Self::SilhouetteMap | Self::SilhouetteMapTam => &[TextureKind::SilhouetteMap, TextureKind::SilhouetteOrder],
+            Self::BlendedSilhouetteMap | Self::BlendedSilhouetteMapTam => &[TextureKind::SilhouetteMap],
             // Its levels are those of the texture that the pass before made.
             Self::BlurredMoments | Self::Visibility => &[],
             // They draw over what the pass before made.
@@ -111,6 +120,14 @@ impl Pass {
     /// Whether it draws the casters that no mask cuts.
     pub const fn fills_shadow_map(self) -> bool {
         matches!(self, Self::HardwareShadowMap | Self::ShadowMap)
+    }
+
+    /// Whether it fills the silhouette map.
+    pub const fn fills_silhouette_map(self) -> bool {
+        matches!(
+            self,
+            Self::SilhouetteMap | Self::SilhouetteMapTam | Self::BlendedSilhouetteMap | Self::BlendedSilhouetteMapTam
+        )
     }
 
     /// Whether it draws quads and corners.

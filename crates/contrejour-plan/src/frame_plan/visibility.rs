@@ -105,7 +105,7 @@ impl VisibilityKind {
         Some(match technique {
             _ if has(Pass::SmoothieBuffer) => Self::SmoothiesPacked,
             _ if has(Pass::SmoothieAlpha) => Self::SmoothiesSplit,
-            Technique::SilhouetteMap(silhouettes) if has(Pass::SilhouetteMap) || has(Pass::SilhouetteMapTam) => {
+            Technique::SilhouetteMap(silhouettes) if passes.iter().any(|pass| pass.fills_silhouette_map()) => {
                 let samples = if light_has_size { silhouettes.samples } else { 1 };
                 Self::SilhouetteMap { samples, profile: silhouettes.profile }
             }

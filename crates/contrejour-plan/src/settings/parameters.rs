@@ -4,8 +4,8 @@ use core::fmt;
 use core::ops::Bound;
 
 use super::{
-    GaussianKernel, GaussianPcfSettings, PcssSettings, SettingsError, SilhouetteMapSettings, SmoothieSettings,
-    SmoothieWidth, Technique, VarianceSettings, VarianceSoftness,
+    GaussianKernel, GaussianPcfSettings, PcssSettings, SettingsError, SilhouetteMapSettings, SilhouetteWinner,
+    SmoothieSettings, SmoothieWidth, Technique, VarianceSettings, VarianceSoftness,
 };
 
 /// A number that a technique can be tuned by.
@@ -64,6 +64,7 @@ enum Slot<'a> {
     Count(&'a mut u32),
     Kernel(&'a mut GaussianKernel),
     Width(&'a mut SmoothieWidth),
+    Blending(&'a mut SilhouetteWinner),
 }
 
 impl Slot<'_> {
@@ -75,6 +76,7 @@ impl Slot<'_> {
             Self::Kernel(kernel) => kernel.texels().into(),
             Self::Width(SmoothieWidth::Ndc(width)) => width.to_string().parse().unwrap_or((*width).into()),
             Self::Width(SmoothieWidth::FromLightSize) => return None,
+            Self::Blending(winner) => f64::from(u8::from(**winner == SilhouetteWinner::ByBlending)),
         })
     }
 
@@ -85,6 +87,8 @@ impl Slot<'_> {
             Self::Count(count) => **count = value as u32,
             Self::Kernel(slot) => **slot = kernel(value).unwrap_or(**slot),
             Self::Width(width) => **width = SmoothieWidth::Ndc(value as f32),
+            Self::Blending(winner) if value == 1.0 => **winner = SilhouetteWinner::ByBlending,
+            Self::Blending(winner) => **winner = SilhouetteWinner::ByDepth,
         }
     }
 }
@@ -157,10 +161,11 @@ impl Technique {
             Self::Smoothies(SmoothieSettings { width, width_max_ndc, .. }) => {
                 vec![("width_ndc", NDC, Slot::Width(width)), ("width_max_ndc", NDC, Slot::Number(width_max_ndc))]
             }
-            Self::SilhouetteMap(SilhouetteMapSettings { edge_texels, width_max_ndc, samples, .. }) => vec![
+            Self::SilhouetteMap(SilhouetteMapSettings { edge_texels, width_max_ndc, samples, winner, .. }) => vec![
                 ("edge_texels", ParameterRange::Above(0.0, 4.0), Slot::Number(edge_texels)),
                 ("width_max_ndc", NDC, Slot::Number(width_max_ndc)),
                 ("samples", SAMPLES, Slot::Count(samples)),
+                ("blending", ParameterRange::Whole(0, 1), Slot::Blending(winner)),
             ],
         }
     }

@@ -22,6 +22,8 @@ pub struct SilhouetteMapSettings {
     pub samples: u32,
     /// How a soft edge goes from dark to lit. Default: as a disk of light does behind a straight edge.
     pub profile: EdgeProfile,
+    /// How the nearest of the silhouettes around a texel wins. Default: by depth that fragments write.
+    pub winner: SilhouetteWinner,
 }
 
 /// Who finds the silhouettes of a silhouette map.
@@ -35,6 +37,21 @@ pub enum SilhouetteSource {
     /// The vertex stage, as topology-aware meshes do it: each face asks its neighbours, and one with an outline edge is
     /// drawn larger.
     Faces,
+}
+
+/// How the nearest of the silhouettes around a texel wins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum SilhouetteWinner {
+    /// Fragments write how far the silhouette is as their depth, and the depth test keeps the nearest one's distance and
+    /// depth. No fragment can be dropped before it ran.
+    #[default]
+    ByDepth,
+    /// Blending keeps the least distance and the least depth, each for itself: of another silhouette the depth may be, and no
+    /// sign is kept. There is no depth buffer. Needs a device that blends 32-bit floats, or depth in 16 bits; else it is
+    /// as by depth.
+    ByBlending,
 }
 
 /// How a soft edge goes from dark to lit across a penumbra.
@@ -57,6 +74,7 @@ impl SilhouetteMapSettings {
         width_max_ndc: 0.1,
         samples: 1,
         profile: EdgeProfile::Disk,
+        winner: SilhouetteWinner::ByDepth,
     };
 
     /// The defaults of `silhouette-map-tam`.

@@ -31,6 +31,7 @@ const KEYS: &[&str] = &[
     "min_variance",
     "edge_texels",
     "samples",
+    "blending",
 ];
 /// Those of the keys that are parameters of one technique or another.
 const PARAMETERS: &[&str] = KEYS.split_at(10).1;

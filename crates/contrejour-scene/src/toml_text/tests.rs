@@ -1,7 +1,8 @@
 use std::path::Path;
 
 use contrejour_plan::{
-    AlphaRemap, CascadeSettings, DepthPrecision, EdgeProfile, LightKind, ShadowSettings, SmoothieWidth, Technique,
+    AlphaRemap, CascadeSettings, DepthPrecision, EdgeProfile, LightKind, ShadowSettings, SilhouetteWinner,
+    SmoothieWidth, Technique,
 };
 use glam::DVec3;
 
@@ -263,12 +264,15 @@ fn shadow_settings_are_read_and_checked() {
     let foreign = message("technique = \"pcss\"\nkernel = 5");
     assert!(foreign.contains("give one of blocker_samples, filter_samples"), "{foreign}");
     assert!(message("technique = \"pcss\"\nfilter_samples = 0").contains("a whole number from 1 to 1024"));
-    let linear =
-        with("technique = \"silhouette-map-tam\"\nprofile = \"linear\"\nsamples = 4\nbias_smoothie_texels = 2");
+    let linear = with(
+        "technique = \"silhouette-map-tam\"\nprofile = \"linear\"\nsamples = 4\nblending = 1\nbias_smoothie_texels = 2",
+    );
     let Technique::SilhouetteMap(silhouettes) = read(&linear).expect("good").lights[0].shadow.technique else {
         panic!("it is named")
     };
     assert_eq!((silhouettes.profile, silhouettes.samples), (EdgeProfile::Linear, 4));
+    assert_eq!(silhouettes.winner, SilhouetteWinner::ByBlending);
+    assert!(message("technique = \"silhouette-map\"\nblending = 2").contains("a whole number from 0 to 1"));
     assert!(message("profile = \"disk\"").contains("the technique smoothies has no parameter \"profile\""));
     assert!(message("technique = \"silhouette-map\"\nremap = \"off\"").contains("no parameter \"remap\""));
     assert!(message("depth_bits = 24").contains("give 16 or 32"));

@@ -1,6 +1,8 @@
 //! The techniques that the papers' figures compare.
 
-use contrejour_plan::{ShadowSettings, SilhouetteMapSettings, SmoothieSettings, SmoothieWidth, Technique};
+use contrejour_plan::{
+    ShadowSettings, SilhouetteMapSettings, SilhouetteWinner, SmoothieSettings, SmoothieWidth, Technique,
+};
 
 /// A technique and what a figure calls it.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +53,24 @@ pub(super) const SILHOUETTE_MAP_TAM: Method = Method {
     file: "silhouette-map-tam",
     technique: Technique::SilhouetteMap(SilhouetteMapSettings::TAM),
 };
+
+/// The same without depth that fragments write.
+pub(super) const BLENDED_SILHOUETTE_MAP: Method = Method {
+    label: "silhouette map, blended",
+    file: "blended-silhouette-map",
+    technique: Technique::SilhouetteMap(blended(SilhouetteMapSettings::DEFAULT)),
+};
+
+/// The same without depth that fragments write, with silhouettes from the vertex stage.
+pub(super) const BLENDED_SILHOUETTE_MAP_TAM: Method = Method {
+    label: "silhouette map, TAM, blended",
+    file: "blended-silhouette-map-tam",
+    technique: Technique::SilhouetteMap(blended(SilhouetteMapSettings::TAM)),
+};
+
+const fn blended(silhouettes: SilhouetteMapSettings) -> SilhouetteMapSettings {
+    SilhouetteMapSettings { winner: SilhouetteWinner::ByBlending, ..silhouettes }
+}
 
 const fn of_width(width_ndc: f32) -> SmoothieSettings {
     SmoothieSettings { width: SmoothieWidth::Ndc(width_ndc), ..SmoothieSettings::DEFAULT }

@@ -9,7 +9,10 @@ use contrejour_scene::shapes::Shape;
 use super::super::error::RunError;
 use super::super::lab::Lab;
 use super::super::subject::{NamedScene, Subject};
-use super::methods::{BY_LIGHT_SIZE, Method, SHADOW_MAP, SILHOUETTE_MAP, SILHOUETTE_MAP_TAM};
+use super::methods::{
+    BLENDED_SILHOUETTE_MAP, BLENDED_SILHOUETTE_MAP_TAM, BY_LIGHT_SIZE, Method, SHADOW_MAP, SILHOUETTE_MAP,
+    SILHOUETTE_MAP_TAM,
+};
 use super::sight::built_in;
 use super::turns::turns;
 use crate::report::{Body, Cost, Figure, Table};
@@ -17,7 +20,8 @@ use crate::report::{Body, Cost, Figure, Table};
 /// 2 * 600 * 25 = 30 000 faces, as many as the paper's scene has.
 const KNOT: Shape = Shape::Knot { radius: 0.95, tube_radius: 0.23, segments: 600, sides: 25 };
 
-const METHODS: [Method; 4] = [SHADOW_MAP, BY_LIGHT_SIZE, SILHOUETTE_MAP, SILHOUETTE_MAP_TAM];
+const METHODS: [Method; 6] =
+    [SHADOW_MAP, BY_LIGHT_SIZE, SILHOUETTE_MAP, SILHOUETTE_MAP_TAM, BLENDED_SILHOUETTE_MAP, BLENDED_SILHOUETTE_MAP_TAM];
 
 /// How many times as long as the plain shadow map the paper's technique takes: "about".
 const RATIO_OF_2005: f64 = 5.0;

@@ -3,8 +3,9 @@ use glam::{DMat4, DVec3};
 use super::*;
 use crate::{
     AlphaRemap, CasterFacts, DepthPrecision, EntryPoints, Light, LightKind, MapSampler, MaskFacts, MeshFacts,
-    MeshPiece, ObjectBox, PagedCaster, PoolHoles, Seating, SettingsError, SilhouetteMapSettings, SmoothieBlend,
-    SmoothieSettings, SmoothieWidth, Technique, TextureFormat, VarianceSettings, views,
+    MeshPiece, ObjectBox, PagedCaster, PoolHoles, Seating, SettingsError, SilhouetteMapSettings, SilhouetteSource,
+    SilhouetteWinner, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, TextureFormat, VarianceSettings,
+    views,
 };
 
 mod masked;
@@ -160,7 +161,7 @@ fn assert_consistent(plan: &FramePlan) {
         if pass.draws_smoothies() {
             what.push(Omitted::SmoothiePasses);
         }
-        if matches!(pass, Pass::SilhouetteMap | Pass::SilhouetteMapTam) {
+        if pass.fills_silhouette_map() {
             what.push(Omitted::SilhouettePasses);
         }
         if matches!(pass, Pass::MaskedHardwareShadowMap | Pass::MaskedShadowMap) {
@@ -310,6 +311,34 @@ fn either_source_of_a_silhouette_map_needs_its_own() {
     assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::VertexStageFindsThem));
     assert_eq!(bytes(&plan, BufferKind::FaceNeighbours), bytes(&plan, BufferKind::Faces));
     assert!(plan.buffer(BufferKind::Edges).is_none() && plan.buffer(BufferKind::Quads).is_none());
+}
+
+#[test]
+fn blending_leaves_out_the_order_of_silhouettes_where_the_device_blends() {
+    let mut case = Case::new(cube_scene());
+    case.device.float32_blendable = true;
+    for (source, pass) in [
+        (SilhouetteSource::Stages, Pass::BlendedSilhouetteMap),
+        (SilhouetteSource::Faces, Pass::BlendedSilhouetteMapTam),
+    ] {
+        let winner = SilhouetteWinner::ByBlending;
+        case.settings.technique =
+            Technique::SilhouetteMap(SilhouetteMapSettings { source, winner, ..Default::default() });
+        let plan = case.good();
+        assert_eq!(plan.passes, [Pass::ShadowMap, pass]);
+        assert!(plan.texture(TextureKind::SilhouetteOrder).is_none());
+        assert_eq!(plan.reason(&Omitted::Pass(Pass::SilhouetteMap)), Some(Reason::BlendingAskedFor));
+        assert!(matches!(plan.visibility, Some(VisibilityKind::SilhouetteMap { .. })));
+
+        case.device.float32_blendable = false;
+        let plan = case.good();
+        assert!(plan.texture(TextureKind::SilhouetteOrder).is_some());
+        assert_eq!(plan.reason(&Omitted::Pass(pass)), Some(Reason::DeviceBlendsNoFloats));
+        case.settings.depth_precision = DepthPrecision::Bits16;
+        assert_eq!(case.good().passes, [Pass::ShadowMap, pass]);
+        case.settings.depth_precision = DepthPrecision::Bits32;
+        case.device.float32_blendable = true;
+    }
 }
 
 #[test]
