@@ -5,9 +5,10 @@
 
 @group(CONTREJOUR_GROUP) @binding(2) var contrejour_silhouette_map: texture_2d_array<f32>;
 
-// Two disks, one after the other, blur as much as one whose radius squared is the sum of theirs.
-const CONTREJOUR_SHARE = 0.7;
-const CONTREJOUR_SPREAD = 0.71414284;
+// Two disks, one after the other, blur as much as one whose radius squared is the sum of theirs: each place sees a share of
+// the light's radius, less where there are many, and they are spread over the rest.
+const CONTREJOUR_SHARE = 1.0 / sqrt(sqrt(f32(CONTREJOUR_SAMPLES)));
+const CONTREJOUR_SPREAD = sqrt(1.0 - CONTREJOUR_SHARE * CONTREJOUR_SHARE);
 
 // Depth is compared this far outside of a silhouette, where the nearest texel shows nothing of its blocker: so many texels,
 // and this share of half the penumbra's width, since the nearest edge may lie a little inside of a silhouette that folds.
@@ -36,10 +37,11 @@ struct ContrejourSilhouetteTexel {
 fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
     let gradient = contrejour_q_gradient(lookup);
     let middle = contrejour_glimpse(lookup, gradient, vec2f(0.0), 1.0);
-    if CONTREJOUR_SAMPLES == 1u || middle.radius == 0.0 {
+    // An edge as hard as edges get looks alike from all places.
+    let hardest = contrejour_receiver_view.edge_texels / f32(contrejour_receiver_view.map_size);
+    if CONTREJOUR_SAMPLES == 1u || middle.radius <= hardest {
         return middle.visibility;
     }
-    // Each place sees a part of the light's radius, and they are spread over the rest.
     let place = contrejour_leaning(lookup.place_ndc);
     var sum = 0.0;
     for (var sample = 0u; sample < CONTREJOUR_SAMPLES; sample++) {
