@@ -25,15 +25,6 @@ struct ContrejourGlimpse {
     radius: f32,
 }
 
-// One of the four texels around a place.
-struct ContrejourSilhouetteTexel {
-    is_lit: bool,
-    // Whether a silhouette is near that may shadow the receiver.
-    is_known: bool,
-    signed_distance: f32,
-    q: f32,
-}
-
 fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
     let gradient = contrejour_q_gradient(lookup);
     let middle = contrejour_glimpse(lookup, gradient, vec2f(0.0), 1.0);
@@ -53,7 +44,7 @@ fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
 
 // Through a place beside the receiver's own, by a part of the light's radius.
 fn contrejour_glimpse(lookup: ContrejourLookup, gradient: vec2f, offset: vec2f, share: f32) -> ContrejourGlimpse {
-    // Look at the four texels around it.
+    // Look at the four texels around it, row by row.
     let view = contrejour_receiver_view;
     let size = f32(view.map_size);
     let ndc = lookup.place_ndc + offset;
@@ -61,40 +52,50 @@ fn contrejour_glimpse(lookup: ContrejourLookup, gradient: vec2f, offset: vec2f, 
     let place = contrejour_uv_of_ndc(ndc) * size - 0.5;
     let corner = floor(place);
     let weight = place - corner;
-    var texels: array<ContrejourSilhouetteTexel, 4>;
-    var known = 0.0;
-    var known_q = 0.0;
-    var farthest = 0.0;
-    for (var i = 0u; i < 4u; i++) {
-        let cell = vec2f(f32(i & 1u), f32(i >> 1u));
-        let to_texel = (cell - weight) * vec2f(2.0, -2.0) / size;
-        let texel = contrejour_silhouette_texel(vec2i(corner + cell), q + dot(gradient, to_texel));
-        if texel.is_known {
-            let near = 1.0 - abs(cell - weight);
-            known += near.x * near.y;
-            known_q += near.x * near.y * texel.q;
-            farthest = max(farthest, abs(texel.signed_distance));
-        }
-        texels[i] = texel;
-    }
+    let right = vec4f(0.0, 1.0, 0.0, 1.0) - weight.x;
+    let down = vec4f(0.0, 0.0, 1.0, 1.0) - weight.y;
+    let q_there = q + 2.0 / size * (gradient.x * right - gradient.y * down);
+    let first = vec2i(corner);
+    let nearest = vec4f(
+        contrejour_shadow_depth_at(first),
+        contrejour_shadow_depth_at(first + vec2i(1, 0)),
+        contrejour_shadow_depth_at(first + vec2i(0, 1)),
+        contrejour_shadow_depth_at(first + vec2i(1, 1)),
+    );
+    let kept_a = contrejour_silhouette_at(first);
+    let kept_b = contrejour_silhouette_at(first + vec2i(1, 0));
+    let kept_c = contrejour_silhouette_at(first + vec2i(0, 1));
+    let kept_d = contrejour_silhouette_at(first + vec2i(1, 1));
+    let depth = view.depth_unit * vec4f(kept_a.x, kept_b.x, kept_c.x, kept_d.x);
+    let distance = abs(vec4f(kept_a.y, kept_b.y, kept_c.y, kept_d.y));
+
+    // On which side a texel's middle lies is what the shadow map is drawn by. The sign that a single edge gives is wrong
+    // inside of a silhouette that folds back on itself, as those of smooth meshes do everywhere.
+    let is_lit = q_there <= contrejour_qs_of_depths(nearest);
+    let q_silhouette = contrejour_qs_of_depths(depth);
+    let is_known = q_silhouette < q_there;
+    let footprint = view.texel_world * select(vec4f(1.0), depth, view.perspective == 1u);
+    let deepest = depth + CONTREJOUR_STEEPEST_BLOCKER * footprint * (distance + 1.0);
+    let is_behind = !is_lit & (nearest <= deepest);
+    let share_known = select(vec4f(0.0), (1.0 - abs(right)) * (1.0 - abs(down)), is_known);
+    let known = dot(share_known, vec4f(1.0));
 
     // Where no silhouette is near, its distance is more than that of the others, on the side that depths say.
-    var distances: array<f32, 4>;
-    for (var i = 0u; i < 4u; i++) {
-        let beyond = select(farthest + 1.0, -farthest - 1.0, texels[i].is_lit);
-        distances[i] = select(beyond, texels[i].signed_distance, texels[i].is_known);
-    }
-    let upper = mix(distances[0], distances[1], weight.x);
-    let lower = mix(distances[2], distances[3], weight.x);
+    let known_distance = select(vec4f(0.0), distance, is_known);
+    let farthest = max(max(known_distance.x, known_distance.y), max(known_distance.z, known_distance.w));
+    let beyond = select(vec4f(farthest + 1.0), vec4f(-farthest - 1.0), is_lit);
+    let distances = select(beyond, select(-distance, distance, is_behind), is_known);
+    let upper = mix(distances.x, distances.y, weight.x);
+    let lower = mix(distances.z, distances.w, weight.x);
     let signed_distance = mix(upper, lower, weight.y);
-    let slope = vec2f(mix(distances[1] - distances[0], distances[3] - distances[2], weight.y), lower - upper);
+    let slope = vec2f(mix(distances.y - distances.x, distances.w - distances.z, weight.y), lower - upper);
     let steepness = length(slope);
     let inward = select(vec2f(0.0), slope / steepness, steepness > 0.0);
 
     // How wide the penumbra is there.
     var radius = 0.0;
     if known > 0.0 {
-        radius = min(contrejour_penumbra_radius(q, known_q / known), view.search_max_ndc);
+        radius = min(contrejour_penumbra_radius(q, dot(share_known, q_silhouette) / known), view.search_max_ndc);
     }
     let along = dot(contrejour_leaning(ndc), inward * vec2f(1.0, -1.0));
     let half_width = max(share * radius * sqrt(1.0 + along * along) * 0.5 * size, 0.5 * view.edge_texels);
@@ -104,16 +105,17 @@ fn contrejour_glimpse(lookup: ContrejourLookup, gradient: vec2f, offset: vec2f, 
     }
 
     // What else is in the way is seen outside of the silhouette.
-    let nearest = u32(round(weight.x)) + 2u * u32(round(weight.y));
-    if texels[nearest].is_lit {
+    let is_here = max(abs(right), abs(down)) <= vec4f(0.5);
+    if any(is_here & is_lit) {
         return ContrejourGlimpse(past_edge, radius);
     }
     let outside_by = CONTREJOUR_OUTSIDE_TEXELS + CONTREJOUR_OUTSIDE_SHARE * half_width;
     let away = -max(signed_distance + outside_by, 0.0) * inward;
     let outside = floor(place + 0.5 + away);
     let to_outside = (outside - place) * vec2f(2.0, -2.0) / size;
-    let is_lit = q + dot(gradient, to_outside) <= contrejour_q_of_depth(contrejour_shadow_depth_at(vec2i(outside)));
-    return ContrejourGlimpse(select(0.0, past_edge, is_lit), radius);
+    let is_lit_outside =
+        q + dot(gradient, to_outside) <= contrejour_q_of_depth(contrejour_shadow_depth_at(vec2i(outside)));
+    return ContrejourGlimpse(select(0.0, past_edge, is_lit_outside), radius);
 }
 
 // The part of the light past an edge: 1 at -1, outside, and 0 at 1, on the blocker's side.
@@ -125,20 +127,11 @@ fn contrejour_edge_profile(x: f32) -> f32 {
     return 0.5 - 0.5 * x;
 }
 
-fn contrejour_silhouette_texel(texel: vec2i, q: f32) -> ContrejourSilhouetteTexel {
-    let nearest = contrejour_shadow_depth_at(texel);
-    let is_lit = q <= contrejour_q_of_depth(nearest);
-    let kept = textureLoad(contrejour_silhouette_map, contrejour_inside(texel), contrejour_layer, 0).xy;
-    let depth = contrejour_receiver_view.depth_unit * kept.x;
-    let q_silhouette = contrejour_q_of_depth(depth);
-    if q_silhouette >= q {
-        return ContrejourSilhouetteTexel(is_lit, false, 0.0, 0.0);
-    }
-    // On which side a texel's middle lies is what the shadow map is drawn by. The sign that a single edge gives is wrong
-    // inside of a silhouette that folds back on itself, as those of smooth meshes do everywhere.
-    let distance = abs(kept.y);
-    let footprint = contrejour_receiver_view.texel_world * contrejour_depth_scale(depth);
-    let deepest = depth + CONTREJOUR_STEEPEST_BLOCKER * footprint * (distance + 1.0);
-    let is_behind = !is_lit && nearest <= deepest;
-    return ContrejourSilhouetteTexel(is_lit, true, select(-distance, distance, is_behind), q_silhouette);
+// Depth of the silhouette that is nearest to a texel, and signed distance to it.
+fn contrejour_silhouette_at(texel: vec2i) -> vec2f {
+    return textureLoad(contrejour_silhouette_map, contrejour_inside(texel), contrejour_layer, 0).xy;
+}
+
+fn contrejour_qs_of_depths(depths: vec4f) -> vec4f {
+    return select(depths, -1.0 / depths, contrejour_receiver_view.perspective == 1u);
 }
