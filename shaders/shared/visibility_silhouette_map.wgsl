@@ -25,6 +25,19 @@ struct ContrejourGlimpse {
     radius: f32,
 }
 
+// The edge of a shadow around a place.
+struct ContrejourEdge {
+    // In texels, positive on the blocker's side.
+    signed_distance: f32,
+    // Unit direction in which it grows, on the texture; zero where it doesn't.
+    inward: vec2f,
+    // Whether a silhouette is near that may shadow the receiver, and its q.
+    is_known: bool,
+    q: f32,
+    // Whether the texel that the place is in is lit.
+    is_lit: bool,
+}
+
 fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
     let gradient = contrejour_q_gradient(lookup);
     let middle = contrejour_glimpse(lookup, gradient, vec2f(0.0), 1.0);
@@ -44,78 +57,91 @@ fn contrejour_map_visibility(lookup: ContrejourLookup) -> f32 {
 
 // Through a place beside the receiver's own, by a part of the light's radius.
 fn contrejour_glimpse(lookup: ContrejourLookup, gradient: vec2f, offset: vec2f, share: f32) -> ContrejourGlimpse {
-    // Look at the four texels around it, row by row.
     let view = contrejour_receiver_view;
     let size = f32(view.map_size);
     let ndc = lookup.place_ndc + offset;
     let q = contrejour_q_of_depth(lookup.depth) + dot(gradient, offset);
+    // In texels, and how much q changes from one to the next.
     let place = contrejour_uv_of_ndc(ndc) * size - 0.5;
+    let q_step = gradient * vec2f(2.0, -2.0) / size;
+    let edge = contrejour_edge_around(place, q, q_step);
+
+    // How wide the penumbra is there.
+    var radius = 0.0;
+    if edge.is_known {
+        radius = min(contrejour_penumbra_radius(q, edge.q), view.search_max_ndc);
+    }
+    let along = dot(contrejour_leaning(ndc), edge.inward * vec2f(1.0, -1.0));
+    let half_width = max(share * radius * sqrt(1.0 + along * along) * 0.5 * size, 0.5 * view.edge_texels);
+    let past_edge = contrejour_edge_profile(clamp(edge.signed_distance / half_width, -1.0, 1.0));
+    if edge.is_lit || past_edge == 0.0 {
+        return ContrejourGlimpse(past_edge, radius);
+    }
+
+    // What else is in the way is seen outside of the silhouette.
+    let outside_by = CONTREJOUR_OUTSIDE_TEXELS + CONTREJOUR_OUTSIDE_SHARE * half_width;
+    let outside = floor(place + 0.5 - max(edge.signed_distance + outside_by, 0.0) * edge.inward);
+    let q_outside = q + dot(q_step, outside - place);
+    let is_lit = q_outside <= contrejour_q_of_depth(contrejour_shadow_depth_at(vec2i(outside)));
+    return ContrejourGlimpse(select(0.0, past_edge, is_lit), radius);
+}
+
+// What the four texels around a place say of a receiver there.
+fn contrejour_edge_around(place: vec2f, q: f32, q_step: vec2f) -> ContrejourEdge {
+    // Row by row.
     let corner = floor(place);
     let weight = place - corner;
     let right = vec4f(0.0, 1.0, 0.0, 1.0) - weight.x;
     let down = vec4f(0.0, 0.0, 1.0, 1.0) - weight.y;
-    let q_there = q + 2.0 / size * (gradient.x * right - gradient.y * down);
-    let first = vec2i(corner);
+    let a = vec2i(corner);
+    let b = a + vec2i(1, 0);
+    let c = a + vec2i(0, 1);
+    let d = a + vec2i(1, 1);
     let nearest = vec4f(
-        contrejour_shadow_depth_at(first),
-        contrejour_shadow_depth_at(first + vec2i(1, 0)),
-        contrejour_shadow_depth_at(first + vec2i(0, 1)),
-        contrejour_shadow_depth_at(first + vec2i(1, 1)),
+        contrejour_shadow_depth_at(a),
+        contrejour_shadow_depth_at(b),
+        contrejour_shadow_depth_at(c),
+        contrejour_shadow_depth_at(d),
     );
-    let kept_a = contrejour_silhouette_at(first);
-    let kept_b = contrejour_silhouette_at(first + vec2i(1, 0));
-    let kept_c = contrejour_silhouette_at(first + vec2i(0, 1));
-    let kept_d = contrejour_silhouette_at(first + vec2i(1, 1));
-    let depth = view.depth_unit * vec4f(kept_a.x, kept_b.x, kept_c.x, kept_d.x);
-    let distance = abs(vec4f(kept_a.y, kept_b.y, kept_c.y, kept_d.y));
+    let kept = mat4x2f(
+        contrejour_silhouette_at(a),
+        contrejour_silhouette_at(b),
+        contrejour_silhouette_at(c),
+        contrejour_silhouette_at(d),
+    );
+    let depth = contrejour_receiver_view.depth_unit * vec4f(kept[0].x, kept[1].x, kept[2].x, kept[3].x);
+    let distance = abs(vec4f(kept[0].y, kept[1].y, kept[2].y, kept[3].y));
 
     // On which side a texel's middle lies is what the shadow map is drawn by. The sign that a single edge gives is wrong
     // inside of a silhouette that folds back on itself, as those of smooth meshes do everywhere.
-    let is_lit = q_there <= contrejour_qs_of_depths(nearest);
+    let q_there = q + q_step.x * right + q_step.y * down;
     let q_silhouette = contrejour_qs_of_depths(depth);
+    let is_lit = q_there <= contrejour_qs_of_depths(nearest);
     let is_known = q_silhouette < q_there;
-    let footprint = view.texel_world * select(vec4f(1.0), depth, view.perspective == 1u);
+    let footprint = contrejour_receiver_view.texel_world * contrejour_depth_scales(depth);
     let deepest = depth + CONTREJOUR_STEEPEST_BLOCKER * footprint * (distance + 1.0);
     let is_behind = !is_lit & (nearest <= deepest);
-    let share_known = select(vec4f(0.0), (1.0 - abs(right)) * (1.0 - abs(down)), is_known);
-    let known = dot(share_known, vec4f(1.0));
 
     // Where no silhouette is near, its distance is more than that of the others, on the side that depths say.
     let known_distance = select(vec4f(0.0), distance, is_known);
-    let farthest = max(max(known_distance.x, known_distance.y), max(known_distance.z, known_distance.w));
-    let beyond = select(vec4f(farthest + 1.0), vec4f(-farthest - 1.0), is_lit);
-    let distances = select(beyond, select(-distance, distance, is_behind), is_known);
-    let upper = mix(distances.x, distances.y, weight.x);
-    let lower = mix(distances.z, distances.w, weight.x);
-    let signed_distance = mix(upper, lower, weight.y);
-    let slope = vec2f(mix(distances.y - distances.x, distances.w - distances.z, weight.y), lower - upper);
+    let beyond = max(max(known_distance.x, known_distance.y), max(known_distance.z, known_distance.w)) + 1.0;
+    let on_known_side = select(-distance, distance, is_behind);
+    let signed = select(select(vec4f(beyond), vec4f(-beyond), is_lit), on_known_side, is_known);
+    let upper = mix(signed.x, signed.y, weight.x);
+    let lower = mix(signed.z, signed.w, weight.x);
+    let slope = vec2f(mix(signed.y - signed.x, signed.w - signed.z, weight.y), lower - upper);
     let steepness = length(slope);
-    let inward = select(vec2f(0.0), slope / steepness, steepness > 0.0);
 
-    // How wide the penumbra is there.
-    var radius = 0.0;
-    if known > 0.0 {
-        radius = min(contrejour_penumbra_radius(q, dot(share_known, q_silhouette) / known), view.search_max_ndc);
-    }
-    let along = dot(contrejour_leaning(ndc), inward * vec2f(1.0, -1.0));
-    let half_width = max(share * radius * sqrt(1.0 + along * along) * 0.5 * size, 0.5 * view.edge_texels);
-    let past_edge = contrejour_edge_profile(clamp(signed_distance / half_width, -1.0, 1.0));
-    if past_edge == 0.0 {
-        return ContrejourGlimpse(0.0, radius);
-    }
-
-    // What else is in the way is seen outside of the silhouette.
+    let share_known = select(vec4f(0.0), (1.0 - abs(right)) * (1.0 - abs(down)), is_known);
+    let known = dot(share_known, vec4f(1.0));
     let is_here = max(abs(right), abs(down)) <= vec4f(0.5);
-    if any(is_here & is_lit) {
-        return ContrejourGlimpse(past_edge, radius);
-    }
-    let outside_by = CONTREJOUR_OUTSIDE_TEXELS + CONTREJOUR_OUTSIDE_SHARE * half_width;
-    let away = -max(signed_distance + outside_by, 0.0) * inward;
-    let outside = floor(place + 0.5 + away);
-    let to_outside = (outside - place) * vec2f(2.0, -2.0) / size;
-    let is_lit_outside =
-        q + dot(gradient, to_outside) <= contrejour_q_of_depth(contrejour_shadow_depth_at(vec2i(outside)));
-    return ContrejourGlimpse(select(0.0, past_edge, is_lit_outside), radius);
+    return ContrejourEdge(
+        mix(upper, lower, weight.y),
+        select(vec2f(0.0), slope / steepness, steepness > 0.0),
+        known > 0.0,
+        dot(share_known, q_silhouette) / known,
+        any(is_here & is_lit),
+    );
 }
 
 // The part of the light past an edge: 1 at -1, outside, and 0 at 1, on the blocker's side.
@@ -134,4 +160,8 @@ fn contrejour_silhouette_at(texel: vec2i) -> vec2f {
 
 fn contrejour_qs_of_depths(depths: vec4f) -> vec4f {
     return select(depths, -1.0 / depths, contrejour_receiver_view.perspective == 1u);
+}
+
+fn contrejour_depth_scales(depths: vec4f) -> vec4f {
+    return select(vec4f(1.0), depths, contrejour_receiver_view.perspective == 1u);
 }

@@ -461,7 +461,7 @@ fn soft_edges_are_those_of_a_disk(gpu: &Gpu) -> Outcome {
             ("select(-distance, distance, is_behind)", "-distance"),
             ("max(share * radius", "max(0.5 * share * radius"),
             ("nearest <= deepest", "nearest <= 0.9 * depth"),
-            ("-max(signed_distance + outside_by, 0.0)", "-max(signed_distance, 0.0)"),
+            ("max(edge.signed_distance + outside_by, 0.0)", "max(edge.signed_distance, 0.0)"),
         ],
     )?;
     let found = check(16, SAMPLED_VISIBILITY_ERROR);
@@ -500,7 +500,7 @@ fn a_lit_face_has_no_dark_rim(gpu: &Gpu) -> Outcome {
     let points: Vec<_> = (1..200).map(point).collect();
     let check = |fault| expect_near(&asked(gpu, &mesh, &points, 1, fault)?, VISIBILITY_ERROR, |_| 1.0);
     check(None)?;
-    each_is_found(check, &[("let is_behind = !is_lit && nearest <= deepest;", "let is_behind = nearest <= deepest;")])
+    each_is_found(check, &[("!is_lit & (nearest <= deepest)", "nearest <= deepest")])
 }
 
 fn each_is_found(check: impl Fn(Option<Replaced>) -> Outcome, faults: &[Replaced]) -> Outcome {
