@@ -39,7 +39,8 @@ fn vertex_silhouette_quad(@builtin(vertex_index) index: u32) -> SilhouetteVertex
 }
 
 // How far beyond an end its vertex is the nearest point of the outline on one side, as a share of the width: up to the
-// neighbour's normal, or to a right angle from this edge's.
+// neighbour's normal, as far as the strip is wide. All around the end where the outline turns by more than half a right angle,
+// since a strip ends in a straight line, and where it does not go on as one.
 fn share_beyond(quad: Quad, is_high: bool, onwards: vec2f, across: vec2f) -> f32 {
     let caster = casters[quad.caster];
     let vertex = select(quad.low_vertex, quad.high_vertex, is_high);
@@ -61,8 +62,8 @@ fn share_beyond(quad: Quad, is_high: bool, onwards: vec2f, across: vec2f) -> f32
         let direction = direction_from(vertex, vertex_edges[word + 1u], quad.caster);
         let cosine = dot(direction, onwards);
         let sine = dot(direction, across);
-        if cosine > 0.0 {
-            share = saturate(-sine / cosine);
+        if cosine > abs(sine) {
+            share = max(-sine, 0.0) / cosine;
         }
     }
     return select(1.0, share, neighbours == 1u);

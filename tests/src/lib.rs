@@ -16,6 +16,7 @@ pub mod hostile;
 pub mod image_compare;
 pub mod lights;
 pub mod many_lights;
+pub mod map_run;
 pub mod meshes;
 pub mod mirror_run;
 pub mod object_light;

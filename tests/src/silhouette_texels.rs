@@ -107,7 +107,12 @@ impl Definition<'_> {
         let is_near = compared(width - distance, TIE_TEXELS);
         // Beyond an end where another edge is nearer, that other one draws.
         let is_nearest = if is_beyond(quad, share, offset, fans) { Answer::Perhaps } else { Answer::Yes };
-        let answers = [is_near, self.is_unhidden(nearest, outward, depth), is_nearest];
+        // As deep as the view is what a texel without a silhouette holds.
+        let is_inside = match compared(f64::from(self.record.far_depth) - depth, DEPTH_TIE * depth.abs()) {
+            Answer::Yes => Answer::Yes,
+            _ => Answer::Perhaps,
+        };
+        let answers = [is_near, self.is_unhidden(nearest, outward, depth), is_nearest, is_inside];
         if answers.contains(&Answer::No) {
             return None;
         }

@@ -15,11 +15,12 @@ pub struct StageRun {
     bindings: Vec<Binding>,
 }
 
+/// A buffer that a shader binds.
 #[derive(Debug)]
-struct Binding {
-    name: String,
-    index: u32,
-    kind: wgpu::BufferBindingType,
+pub(crate) struct Binding {
+    pub name: String,
+    pub index: u32,
+    pub kind: wgpu::BufferBindingType,
 }
 
 /// What the stage wrote: the bytes of each buffer that it may write, by name.
@@ -164,7 +165,7 @@ impl StageRun {
 }
 
 /// Bind group 0 as the WGSL declares it, also what the entry point does not use.
-fn bindings_of(wgsl: &str) -> Vec<Binding> {
+pub(crate) fn bindings_of(wgsl: &str) -> Vec<Binding> {
     let module = naga::front::wgsl::parse_str(wgsl).unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)));
     let mut bindings: Vec<_> = module
         .global_variables

@@ -154,7 +154,7 @@
 //! | --- | --- | --- |
 //! | `edge_texels` | how wide the hardest edge is, in texels; more than 0, up to 4 | `0.5` |
 //! | `width_max_ndc` | largest half width of a penumbra on the map; more than 0, up to 2 | `0.1` |
-//! | `samples` | places at which a soft edge is looked up, 1 to 1024 | `12` |
+//! | `samples` | places at which a soft edge is looked up, 1 to 1024 | `8` |
 //! | `blending` | `0`: the nearest silhouette's distance and depth by depth that fragments write; `1`: the least of both by blending | `0` |
 //! | `profile` | `"disk"`: a soft edge is as that of a disk of light; `"linear"`: it goes evenly from dark to lit | `"disk"` |
 //!

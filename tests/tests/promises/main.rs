@@ -25,6 +25,7 @@ mod pictures;
 mod posed;
 mod repeatable;
 mod silhouette_maps;
+mod silhouette_passes;
 mod silhouettes;
 mod smoothie_ways;
 mod ten_million;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         closed::trials(),
         silhouettes::trials(),
         silhouette_maps::trials(),
+        silhouette_passes::trials(),
         repeatable::trials(),
         nothing_lost::trials(),
         nothing_per_edge::trials(),

@@ -67,11 +67,11 @@ pub fn trials() -> Vec<Trial> {
 
 const SOURCES: [SilhouetteSource; 2] = [SilhouetteSource::Stages, SilhouetteSource::Faces];
 
-type Map = Vec<Option<SilhouetteTexel>>;
+pub type Map = Vec<Option<SilhouetteTexel>>;
 
 /// Texels of each kind.
 #[derive(Debug, Default)]
-struct Counts {
+pub struct Counts {
     empty: usize,
     certain: usize,
     ties: usize,
@@ -79,7 +79,7 @@ struct Counts {
 }
 
 fn as_defined_from_both_sources(gpu: &Gpu, mesh: &TestMesh) -> Outcome {
-    let mut both = SOURCES.map(|source| Drawn::new(gpu, mesh, settings(source)));
+    let mut both = SOURCES.map(|source| Drawn::new(gpu, mesh, settings(source, MAP_SIZE)));
     let all = lights(mesh);
     let mut counts: [Counts; 2] = Default::default();
     for light in [0, 3, 8, 12, 13, 20, 26, 30].map(|index| &all[index]) {
@@ -92,8 +92,13 @@ fn as_defined_from_both_sources(gpu: &Gpu, mesh: &TestMesh) -> Outcome {
                 Some(expected) => &*expected,
                 none => none.insert(drawn.definition(&view)?),
             };
-            let doubtful =
-                || if source == SilhouetteSource::Faces { near_doubtful_edges(mesh, &view) } else { HashSet::new() };
+            let doubtful = || {
+                if source == SilhouetteSource::Faces {
+                    near_doubtful_edges(mesh, &view, MAP_SIZE)
+                } else {
+                    HashSet::new()
+                }
+            };
             compare(&map, expected, view.far_depth, doubtful, counts)
                 .map_err(|difference| format!("{source:?}, {:?}: {difference}", light.kind))?;
         }
@@ -110,9 +115,9 @@ struct Drawn<'a> {
     pipeline: Pipeline<'a>,
 }
 
-fn settings(source: SilhouetteSource) -> ShadowSettings {
+pub fn settings(source: SilhouetteSource, map_size: u32) -> ShadowSettings {
     let technique = Technique::SilhouetteMap(SilhouetteMapSettings { source, ..Default::default() });
-    ShadowSettings { technique, map_size: MAP_SIZE, ..Default::default() }
+    ShadowSettings { technique, map_size, ..Default::default() }
 }
 
 impl<'a> Drawn<'a> {
@@ -142,7 +147,7 @@ impl<'a> Drawn<'a> {
     }
 }
 
-fn compare(
+pub fn compare(
     map: &Map,
     expected: &[Expected],
     far_depth: f64,
@@ -176,8 +181,8 @@ fn is_alike(one: &SilhouetteTexel, other: &SilhouetteTexel, far_depth: f64) -> b
 }
 
 /// The texels within reach of edges that the vertex stage may see otherwise than the stages do.
-fn near_doubtful_edges(mesh: &TestMesh, view: &View) -> HashSet<usize> {
-    let record = view.light_view(&settings(SilhouetteSource::Faces), &ViewCounts::default());
+pub fn near_doubtful_edges(mesh: &TestMesh, view: &View, map_size: u32) -> HashSet<usize> {
+    let record = view.light_view(&settings(SilhouetteSource::Faces, map_size), &ViewCounts::default());
     let segments = mesh.parts.iter().flat_map(|part| doubtful_edges(part, view));
     segments.flat_map(|segment| near_segment(segment, &record)).collect()
 }
@@ -239,7 +244,7 @@ fn blended_ones_hold_the_least_distance(gpu: &Gpu) -> Outcome {
         let light = &lights(&mesh)[8];
         let view = views(light).map_err(|error| error.to_string())?[0];
         for source in SOURCES {
-            let by_depth = settings(source);
+            let by_depth = settings(source, MAP_SIZE);
             let mut by_blending = by_depth;
             by_blending.technique.set("blending", 1.0).map_err(|error| error.to_string())?;
             let exact = Drawn::new(gpu, &mesh, by_depth)?.map(light, &view)?.ok_or("nothing casts")?;
@@ -401,7 +406,7 @@ fn asked(
     samples: u32,
     fault: Option<Replaced>,
 ) -> Result<Vec<f64>, String> {
-    let mut settings = ShadowSettings { map_size: SHADING_MAP_SIZE, ..settings(SilhouetteSource::Stages) };
+    let mut settings = settings(SilhouetteSource::Stages, SHADING_MAP_SIZE);
     settings.technique.set("samples", samples.into()).map_err(|error| error.to_string())?;
     let mut pipeline = Pipeline::new(gpu, mesh, &ShadowOptions { settings, ..Default::default() })?;
     pipeline.complete_frame(&lamp())?;

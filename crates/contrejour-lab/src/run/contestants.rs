@@ -139,14 +139,14 @@ const FAMILIES: &[Family] = &[
         name: "silhouette map",
         technique: "silhouette-map",
         fixed: &[],
-        swept: &[sweep("samples", &[12.0, 1.0, 4.0], 2), sweep("width_max_ndc", &[0.1, 0.25], 1)],
+        swept: &[sweep("samples", &[8.0, 1.0, 4.0, 16.0], 2), sweep("width_max_ndc", &[0.1, 0.25], 1)],
         depth_bits: BOTH_BITS,
     },
     Family {
         name: "silhouette map TAM",
         technique: "silhouette-map-tam",
         fixed: &[],
-        swept: &[sweep("samples", &[12.0, 1.0], 1)],
+        swept: &[sweep("samples", &[8.0, 1.0], 1)],
         depth_bits: BITS_32,
     },
     Family {

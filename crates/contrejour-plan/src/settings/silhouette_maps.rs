@@ -16,7 +16,7 @@ pub struct SilhouetteMapSettings {
     /// both sides of a silhouette distances are drawn, so less bounds the fill cost of a large light near its casters;
     /// their penumbra is then too narrow.
     pub width_max_ndc: f32,
-    /// Places around a receiver at which a soft edge is looked up. Range: 1 to 1024. Default: 12. Valient and Bujnak take four
+    /// Places around a receiver at which a soft edge is looked up. Range: 1 to 1024. Default: 8. Valient and Bujnak take four
     /// and say that more lower the errors. One is exact where a straight edge is alone in reach, and knows one edge of what
     /// is thinner than its penumbra. A light without size asks for one.
     pub samples: u32,
@@ -72,7 +72,7 @@ impl SilhouetteMapSettings {
         source: SilhouetteSource::Stages,
         edge_texels: 0.5,
         width_max_ndc: 0.1,
-        samples: 12,
+        samples: 8,
         profile: EdgeProfile::Disk,
         winner: SilhouetteWinner::ByDepth,
     };

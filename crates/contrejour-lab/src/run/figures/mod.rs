@@ -11,6 +11,7 @@ mod methods_by_resolution;
 mod overlapping_smoothies;
 mod own_shadow;
 mod sight;
+mod silhouette_map_scenes;
 mod silhouette_map_times;
 mod silhouettes;
 mod smoothie_buffer_cost;
@@ -31,7 +32,7 @@ struct Maker {
 }
 
 /// In the order of the page.
-const MAKERS: [Maker; 14] = [
+const MAKERS: [Maker; 15] = [
     Maker { name: "chan-durand-times", make: chan_durand_times::make },
     Maker { name: "silhouette-time", make: silhouettes::time::make },
     Maker { name: "silhouette-size", make: silhouettes::size::make },
@@ -43,6 +44,7 @@ const MAKERS: [Maker; 14] = [
     Maker { name: "overlapping-smoothies", make: overlapping_smoothies::make },
     Maker { name: "own-shadow", make: own_shadow::make },
     Maker { name: "silhouette-map-times", make: silhouette_map_times::make },
+    Maker { name: "silhouette-map-scenes", make: silhouette_map_scenes::make },
     Maker { name: "boundary-precision", make: boundary_precision::precision },
     Maker { name: "boundary-pictures", make: boundary_precision::pictures },
     Maker { name: "silhouette-map-weak-spots", make: weak_spots::make },

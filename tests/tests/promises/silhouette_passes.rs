@@ -1,0 +1,193 @@
+//! The passes that fill silhouette maps, each alone over a shadow map that hides a part of the silhouettes, are as the
+//! definition says, in views of all kinds of light; and with a fault in their text they are not.
+
+use std::collections::HashSet;
+
+use bytemuck::{bytes_of, cast_slice};
+use contrejour_gpu::passes::{self, MapPass};
+use contrejour_layout::FaceNeighbours;
+use contrejour_mesh::face_neighbours;
+use contrejour_plan::{Light, LightKind, Pass, SilhouetteSource, View, views};
+use contrejour_tests::chain::Chain;
+use contrejour_tests::frame::Frame;
+use contrejour_tests::gpu::Gpu;
+use contrejour_tests::harness::{Outcome, gpu_trial};
+use contrejour_tests::lights::{cascades, lamps, lights};
+use contrejour_tests::map_run::MapRun;
+use contrejour_tests::meshes::{self, TestMesh};
+use contrejour_tests::planted::{Replaced, planted};
+use contrejour_tests::silhouette_texels::{Definition, Expected, SilhouetteTexel};
+use libtest_mimic::Trial;
+
+use crate::silhouette_maps::{Counts, Map, compare, near_doubtful_edges, settings};
+
+const MAP_SIZE: u32 = 128;
+
+pub fn trials() -> Vec<Trial> {
+    vec![
+        gpu_trial(
+            "silhouette_passes::as_defined_in_views_of_lamps_and_cascades",
+            as_defined_in_views_of_lamps_and_cascades,
+        ),
+        gpu_trial("silhouette_passes::faults_of_the_one_from_quads_are_found", |gpu| {
+            faults_are_found(gpu, SilhouetteSource::Stages, &[FAULTS, FAULTS_FROM_QUADS].concat())
+        }),
+        gpu_trial("silhouette_passes::faults_of_the_one_from_faces_are_found", |gpu| {
+            faults_are_found(gpu, SilhouetteSource::Faces, &[FAULTS, FAULTS_FROM_FACES].concat())
+        }),
+    ]
+}
+
+const FAULTS: &[Replaced] = &[
+    ("select(distance, -distance, across > 0.0)", "distance"),
+    ("widening(leaning(ndc), across_way)", "1.0"),
+    ("return point.is_in_band && is_unhidden(point);", "return is_unhidden(point);"),
+    ("return point.is_in_band && is_unhidden(point);", "return point.is_in_band;"),
+    ("return point.order / (1.0 + point.order);", "return 0.5;"),
+    ("const JUST_OUTSIDE_TEXELS = 1.0;", "const JUST_OUTSIDE_TEXELS = -1.0;"),
+];
+
+const FAULTS_FROM_QUADS: &[Replaced] = &[
+    ("share = max(-sine, 0.0) / cosine;", "share = 0.0;"),
+    ("return select(1.0, share, neighbours == 1u);", "return 0.0;"),
+    ("beyond * onwards + width * across", "beyond * onwards + 0.5 * width * across"),
+];
+
+const FAULTS_FROM_FACES: &[Replaced] = &[
+    ("(is_lit == faces_light(caster, clip_from_object, face_across)) == is_along", "is_along"),
+    ("select(counter_clockwise(direction), clockwise(direction), is_lit == runs_up)", "clockwise(direction)"),
+    ("(inradius + reach) / inradius", "(inradius + 0.5 * reach) / inradius"),
+    ("2.0 * size * vec2f(", "size * vec2f("),
+    ("point.order < (*nearest).order", "false"),
+];
+
+/// A mesh under a light, ready to be drawn, and what is to be drawn.
+struct Case {
+    mesh: TestMesh,
+    view: View,
+    frame: Frame,
+    neighbours: Vec<FaceNeighbours>,
+    shadow_depth: Vec<f32>,
+    expected: Vec<Expected>,
+}
+
+fn as_defined_in_views_of_lamps_and_cascades(gpu: &Gpu) -> Outcome {
+    let chain = Chain::new(gpu, "write_draw_args");
+    let runs = [SilhouetteSource::Stages, SilhouetteSource::Faces].map(|source| (source, sound(gpu, source)));
+    for mesh in meshes::shapes() {
+        let of_lamps = lamps(&mesh).into_iter().flat_map(|lamp| views(&lamp).unwrap_or_default());
+        for view in of_lamps.chain(cascades(&mesh)) {
+            let case = Case::new(&chain, &mesh, view);
+            for (source, run) in &runs {
+                case.check(gpu, run, *source).map_err(|difference| format!("{source:?}: {difference}"))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn faults_are_found(gpu: &Gpu, source: SilhouetteSource, faults: &[Replaced]) -> Outcome {
+    let chain = Chain::new(gpu, "write_draw_args");
+    let mut cases = Vec::new();
+    for mesh in meshes::shapes().into_iter().filter(|mesh| ["knot", "fence", "elephant", "box"].contains(&&*mesh.name))
+    {
+        let all = lights(&mesh);
+        for light in [&all[0], &all[8], &lamps(&mesh)[1]] {
+            let views = views(&widened(light)).map_err(|error| error.to_string())?;
+            cases.extend(views.into_iter().map(|view| Case::new(&chain, &mesh, view)));
+        }
+    }
+    let check = |run: &MapRun| cases.iter().try_for_each(|case| case.check(gpu, run, source));
+    check(&sound(gpu, source))?;
+    let pass = pass_of(source);
+    let with_fault =
+        |fault: &Replaced| MapRun::new(gpu, &planted(pass.wgsl, *fault), pass.pass.name(), entry_points(source));
+    match faults.iter().find(|fault| check(&with_fault(fault)).is_ok()) {
+        Some((piece, fault)) => Err(format!("not found: {piece:?} is {fault:?}")),
+        None => Ok(()),
+    }
+}
+
+/// A light whose penumbrae are several texels wide.
+fn widened(light: &Light) -> Light {
+    let mut widened = *light;
+    match &mut widened.kind {
+        LightKind::Spot { radius: size, .. }
+        | LightKind::Point { radius: size, .. }
+        | LightKind::Directional { angular_radius: size, .. }
+        | LightKind::Cascaded { angular_radius: size, .. } => *size *= 10.0,
+    }
+    widened
+}
+
+fn sound(gpu: &Gpu, source: SilhouetteSource) -> MapRun {
+    let pass = pass_of(source);
+    MapRun::new(gpu, pass.wgsl, pass.pass.name(), entry_points(source))
+}
+
+fn pass_of(source: SilhouetteSource) -> &'static MapPass {
+    let pass = match source {
+        SilhouetteSource::Stages => Pass::SilhouetteMap,
+        SilhouetteSource::Faces => Pass::SilhouetteMapTam,
+    };
+    passes::ALL.iter().find(|known| known.pass == pass).expect("the library lists it")
+}
+
+fn entry_points(source: SilhouetteSource) -> [&'static str; 2] {
+    match source {
+        SilhouetteSource::Stages => ["vertex_silhouette_quad", "fragment_silhouette_quad"],
+        SilhouetteSource::Faces => ["vertex_silhouette_face", "fragment_silhouette_face"],
+    }
+}
+
+impl Case {
+    fn new(chain: &Chain<'_>, mesh: &TestMesh, view: View) -> Self {
+        let mut frame = Frame::of_view(&mesh.parts, &view, &settings(SilhouetteSource::Stages, MAP_SIZE));
+        chain.run(&mut frame);
+        // As the faces lie: each part's behind a gap.
+        let gap = FaceNeighbours { across_ab: u32::MAX, across_bc: u32::MAX, across_ca: u32::MAX };
+        let of_part = |part: &meshes::TestPart| face_neighbours(&part.topology, 0..part.topology.faces.len() as u32);
+        let neighbours = mesh.parts.iter().flat_map(|part| [vec![gap], of_part(part)].concat()).collect();
+        let quads = &frame.quads[..frame.counts().quads as usize];
+        let shadow_depth = hiding_half(quads.iter().map(|quad| depth_of_q(&frame, quad.q[0])).collect(), &view);
+        let expected = Definition { record: frame.view(), shadow_depth: &shadow_depth }.texels(quads);
+        Self { mesh: mesh.clone(), view, neighbours, shadow_depth, expected, frame }
+    }
+
+    fn check(&self, gpu: &Gpu, run: &MapRun, source: SilhouetteSource) -> Outcome {
+        let Self { view, frame, .. } = self;
+        let vertices = frame.draw_args[usize::from(source == SilhouetteSource::Stages)].vertex_count;
+        let bytes = |name: &str| match name {
+            "face_neighbours" => cast_slice(&self.neighbours),
+            "view" => bytes_of(frame.view()),
+            _ => frame.bytes(name),
+        };
+        let far = frame.view().far_depth;
+        let floats = run.run(gpu, bytes, &self.shadow_depth, far.into(), vertices);
+        let texel = |texel: &[f32]| {
+            let [depth, signed_distance] = [texel[0], texel[1]].map(f64::from);
+            (texel[0] < far).then_some(SilhouetteTexel { depth, signed_distance })
+        };
+        let map: Map = floats.chunks_exact(2).map(texel).collect();
+        let doubtful = || match source {
+            SilhouetteSource::Stages => HashSet::new(),
+            SilhouetteSource::Faces => near_doubtful_edges(&self.mesh, view, MAP_SIZE),
+        };
+        compare(&map, &self.expected, view.far_depth, doubtful, &mut Counts::default())
+            .map_err(|difference| format!("{}: {difference}", self.mesh.name))
+    }
+}
+
+/// A shadow map of blocks that show nothing and blocks that hide the deeper half of what is this deep.
+fn hiding_half(mut depths: Vec<f32>, view: &View) -> Vec<f32> {
+    const BLOCK: u32 = 8;
+    depths.sort_by(f32::total_cmp);
+    let middle = depths.get(depths.len() / 2).copied().unwrap_or_default();
+    let texels = (0..MAP_SIZE * MAP_SIZE).map(|index| [index % MAP_SIZE, index / MAP_SIZE]);
+    let is_empty = |[column, row]: [u32; 2]| (column / BLOCK + row / BLOCK).is_multiple_of(2);
+    texels.map(|texel| if is_empty(texel) { view.far_depth as f32 } else { middle }).collect()
+}
+
+fn depth_of_q(frame: &Frame, q: f32) -> f32 {
+    if frame.view().perspective == 1 { -1.0 / q } else { q }
+}
