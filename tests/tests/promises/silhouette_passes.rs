@@ -75,7 +75,7 @@ fn as_defined_in_views_of_lamps_and_cascades(gpu: &Gpu) -> Outcome {
     let chain = Chain::new(gpu, "write_draw_args");
     let runs = [SilhouetteSource::Stages, SilhouetteSource::Faces].map(|source| (source, sound(gpu, source)));
     for mesh in meshes::shapes() {
-        let of_lamps = lamps(&mesh).into_iter().flat_map(|lamp| views(&lamp).unwrap_or_default());
+        let of_lamps = lamps(&mesh).into_iter().flat_map(|lamp| views(&widened(&lamp)).unwrap_or_default());
         for view in of_lamps.chain(cascades(&mesh)) {
             let case = Case::new(&chain, &mesh, view);
             for (source, run) in &runs {
