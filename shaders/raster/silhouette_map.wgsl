@@ -17,6 +17,13 @@
 // Strips reach so much farther, in texels, for what rounding leaves between them.
 const OVERLAP_TEXELS = 1.0;
 
+// Edges that run through more texels along an axis are drawn without asking whether they are hidden.
+const MOST_TEXELS_ASKED = 8u;
+
+// What is asked of an edge and of its points may round so differently, in texels and of a depth.
+const ROUNDING_TEXELS = 0.01;
+const ROUNDING = 1e-5;
+
 struct SilhouetteVertex {
     @builtin(position) clip: vec4f,
     @location(0) @interpolate(flat) ends_ndc: vec4f,
@@ -27,6 +34,9 @@ struct SilhouetteVertex {
 @vertex
 fn vertex_silhouette_quad(@builtin(vertex_index) index: u32) -> SilhouetteVertex {
     let quad = quads[index / VERTICES_PER_QUAD];
+    if is_hidden(quad) {
+        return SilhouetteVertex(NOWHERE, vec4f(0.0), vec2f(0.0), vec2f(0.0));
+    }
     let corner = quad_corner(index);
     let width = max(widest_band(quad.q.x, quad.low_ndc), widest_band(quad.q.y, quad.high_ndc));
     // The outward side is right of the way from low to high, or left where the blocker is on the right.
@@ -36,6 +46,26 @@ fn vertex_silhouette_quad(@builtin(vertex_index) index: u32) -> SilhouetteVertex
     let beyond = width * share_beyond(quad, corner.is_high, onwards, across) + OVERLAP_TEXELS / texels_per_ndc();
     let ndc = select(quad.low_ndc, quad.high_ndc, corner.is_high) + beyond * onwards + width * across;
     return SilhouetteVertex(drawn_at(ndc), vec4f(quad.low_ndc, quad.high_ndc), quad.outward, quad.q);
+}
+
+// Whether all texels just outside of a short edge show something nearer to the light, so that no point of it is drawn.
+fn is_hidden(quad: Quad) -> bool {
+    let low = just_outside(quad.low_ndc, quad.outward);
+    let high = just_outside(quad.high_ndc, quad.outward);
+    let first = texel_inside(min(low, high) - ROUNDING_TEXELS);
+    let last = texel_inside(max(low, high) + ROUNDING_TEXELS);
+    if any(last - first >= vec2u(MOST_TEXELS_ASKED)) {
+        return false;
+    }
+    var deepest = 0.0;
+    for (var y = first.y; y <= last.y; y++) {
+        for (var x = first.x; x <= last.x; x++) {
+            deepest = max(deepest, textureLoad(shadow_depth, vec2u(x, y), 0).x * view.depth_unit);
+        }
+    }
+    let depth = min(depth_of_q(quad.q.x), depth_of_q(quad.q.y));
+    let bias = view.bias_smoothie_texels * texel_footprint(max(depth_of_q(quad.q.x), depth_of_q(quad.q.y)));
+    return depth > (deepest + bias) * (1.0 + ROUNDING);
 }
 
 // How far beyond an end its vertex is the nearest point of the outline on one side, as a share of the width: up to the

@@ -79,11 +79,19 @@ fn is_drawn(point: SilhouettePoint) -> bool {
 }
 
 fn is_unhidden(point: SilhouettePoint) -> bool {
-    let outside = texel_of(point.ndc) + vec2f(point.outward.x, -point.outward.y) * JUST_OUTSIDE_TEXELS;
-    let last = vec2f(f32(view.map_size) - 1.0);
-    let nearest = textureLoad(shadow_depth, vec2u(clamp(floor(outside), vec2f(0.0), last)), 0).x * view.depth_unit;
+    let outside = texel_inside(just_outside(point.ndc, point.outward));
+    let nearest = textureLoad(shadow_depth, outside, 0).x * view.depth_unit;
     let depth = depth_of_q(point.q);
     return depth <= nearest + view.bias_smoothie_texels * texel_footprint(depth);
+}
+
+fn just_outside(ndc: vec2f, outward: vec2f) -> vec2f {
+    return texel_of(ndc) + vec2f(outward.x, -outward.y) * JUST_OUTSIDE_TEXELS;
+}
+
+// The texel of the map at a place, or nearest to it.
+fn texel_inside(place: vec2f) -> vec2u {
+    return vec2u(clamp(floor(place), vec2f(0.0), vec2f(f32(view.map_size) - 1.0)));
 }
 
 // From 0 at the silhouette up to 1 far away.

@@ -312,7 +312,7 @@ fn map_layout(device: &wgpu::Device, description: &MapPass) -> wgpu::BindGroupLa
         label: Some(description.pass.name()),
         entries: &[wgpu::BindGroupLayoutEntry {
             binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: UNFILTERED_FLOAT,
             count: None,
         }],

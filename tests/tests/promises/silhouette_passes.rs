@@ -49,6 +49,7 @@ const FAULTS: &[Replaced] = &[
 
 const FAULTS_FROM_QUADS: &[Replaced] = &[
     ("share = max(-sine, 0.0) / cosine;", "share = 0.0;"),
+    ("return depth > (deepest + bias) * (1.0 + ROUNDING);", "return depth > 0.9 * deepest;"),
     ("return select(1.0, share, neighbours == 1u);", "return 0.0;"),
     ("beyond * onwards + width * across", "beyond * onwards + 0.5 * width * across"),
 ];

@@ -19,6 +19,7 @@ pub(super) const SILHOUETTE_MAP: MapPass = MapPass {
         "outline_end",
         "power_of_two",
         "view_depth",
+        "nowhere",
         "silhouette_point"
     ),
     reads: Some(TextureKind::ShadowDepth),
