@@ -154,7 +154,7 @@ fn figures_are_made() -> Outcome {
     let folder = Folder::new();
     let tiny = "report --quick --picture-size 64x48 --scenes square --sizes 32";
     let told = folder.run(&format!("{tiny} -o out --json")).json()?;
-    if told["figures"] != 14 {
+    if told["figures"] != 15 {
         return Err(told.to_string());
     }
     let page = folder.read("out/index.html")?;
