@@ -130,12 +130,7 @@ impl<'a> Drawn<'a> {
     fn map(&mut self, light: &Light, view: &View) -> Result<Option<Map>, String> {
         self.pipeline.complete_frame(light)?;
         let Some(texture) = self.pipeline.maps().silhouette_map else { return Ok(None) };
-        let texels = read_floats(self.gpu, texture);
-        let texel = |texel: &[f32]| {
-            let [depth, signed_distance] = [texel[0], texel[1]].map(f64::from);
-            (texel[0] < view.far_depth as f32).then_some(SilhouetteTexel { depth, signed_distance })
-        };
-        Ok(Some(texels.chunks_exact(2).map(texel).collect()))
+        Ok(Some(map_of(&read_floats(self.gpu, texture), view)))
     }
 
     /// What the map of the stages' last frame may hold.
@@ -145,6 +140,15 @@ impl<'a> Drawn<'a> {
         let shadow_depth = &read_floats(self.gpu, depth);
         Ok(Definition { record: &record, shadow_depth }.texels(&self.pipeline.quads()))
     }
+}
+
+/// What the two floats of each texel say.
+pub fn map_of(floats: &[f32], view: &View) -> Map {
+    let texel = |texel: &[f32]| {
+        let [depth, signed_distance] = [texel[0], texel[1]].map(f64::from);
+        (texel[0] < view.far_depth as f32).then_some(SilhouetteTexel { depth, signed_distance })
+    };
+    floats.chunks_exact(2).map(texel).collect()
 }
 
 pub fn compare(
