@@ -121,6 +121,13 @@ pub const ALL: [MapPass; 13] = [
     silhouette_map_tam::BLENDED_SILHOUETTE_MAP_TAM,
 ];
 
+/// What a pass of a silhouette map is without depth that its fragments write.
+const fn blended(pass: Pass, by_depth: MapPass) -> MapPass {
+    let color =
+        ColorTarget { texture: TextureKind::SilhouetteMap, clear: ClearColor::FarDepthAndDistance, minimum: true };
+    MapPass { pass, color: Some(color), depth: None, ..by_depth }
+}
+
 const SHADOW_MAP_WGSL: &str = wgsl!(
     "raster/shadow_map",
     "topology",

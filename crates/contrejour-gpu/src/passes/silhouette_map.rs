@@ -1,6 +1,6 @@
 use contrejour_plan::{Pass, TextureKind};
 
-use super::{ClearColor, ColorTarget, DepthKept, DepthTarget, DrawCount, Levels, MapPass};
+use super::{ClearColor, ColorTarget, DepthKept, DepthTarget, DrawCount, Levels, MapPass, blended};
 use crate::wgsl::wgsl;
 
 /// Signed distance to silhouettes and their depth, from quads.
@@ -30,13 +30,4 @@ pub(super) const SILHOUETTE_MAP: MapPass = MapPass {
 };
 
 /// Least distance to silhouettes and their least depth, from quads.
-pub(super) const BLENDED_SILHOUETTE_MAP: MapPass = MapPass {
-    pass: Pass::BlendedSilhouetteMap,
-    color: Some(ColorTarget {
-        texture: TextureKind::SilhouetteMap,
-        clear: ClearColor::FarDepthAndDistance,
-        minimum: true,
-    }),
-    depth: None,
-    ..SILHOUETTE_MAP
-};
+pub(super) const BLENDED_SILHOUETTE_MAP: MapPass = blended(Pass::BlendedSilhouetteMap, SILHOUETTE_MAP);

@@ -1,6 +1,6 @@
 use contrejour_plan::{Pass, TextureKind};
 
-use super::{ClearColor, ColorTarget, DepthKept, DepthTarget, DrawCount, Levels, MapPass};
+use super::{ClearColor, ColorTarget, DepthKept, DepthTarget, DrawCount, Levels, MapPass, blended};
 use crate::wgsl::wgsl;
 
 /// Signed distance to silhouettes and their depth, from faces that the vertex stage finds to have outline edges.
@@ -27,13 +27,4 @@ pub(super) const SILHOUETTE_MAP_TAM: MapPass = MapPass {
 };
 
 /// Least distance to silhouettes and their least depth, from faces that the vertex stage finds to have outline edges.
-pub(super) const BLENDED_SILHOUETTE_MAP_TAM: MapPass = MapPass {
-    pass: Pass::BlendedSilhouetteMapTam,
-    color: Some(ColorTarget {
-        texture: TextureKind::SilhouetteMap,
-        clear: ClearColor::FarDepthAndDistance,
-        minimum: true,
-    }),
-    depth: None,
-    ..SILHOUETTE_MAP_TAM
-};
+pub(super) const BLENDED_SILHOUETTE_MAP_TAM: MapPass = blended(Pass::BlendedSilhouetteMapTam, SILHOUETTE_MAP_TAM);

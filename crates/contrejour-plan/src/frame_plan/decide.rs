@@ -144,7 +144,7 @@ pub(super) fn passes(input: &PlanInput<'_>, outlines: Option<&Outlines>, left_ou
     } else if let Technique::Variance(_) = input.settings.technique {
         passes.extend(with_masked(Pass::ShadowMap, Pass::MaskedShadowMap));
         passes.extend([Pass::Moments, Pass::BlurredMoments]);
-        if input.settings.depth_precision == DepthPrecision::Bits16 {
+        if has_halves(input) {
             left_out.add(Omitted::FullMoments, Reason::HalvesAskedFor);
         } else if !input.device.float32_filterable {
             left_out.add(Omitted::FullMoments, Reason::DeviceFiltersNoFloats);
@@ -178,28 +178,35 @@ pub(super) fn passes(input: &PlanInput<'_>, outlines: Option<&Outlines>, left_ou
 
 /// The passes that fill the smoothie buffer.
 fn smoothie_passes(input: &PlanInput<'_>, smoothies: &SmoothieSettings, left_out: &mut LeftOutList) -> &'static [Pass] {
-    let halves = input.settings.depth_precision == DepthPrecision::Bits16;
     let two_passes = match smoothies.blend {
         SmoothieBlend::TwoPasses => Some(Reason::TwoPassesAskedFor),
-        SmoothieBlend::BestOfDevice if halves || input.device.float32_blendable => None,
+        SmoothieBlend::BestOfDevice if blends_depth(input) => None,
         SmoothieBlend::BestOfDevice => Some(Reason::DeviceBlendsNoFloats),
     };
     if let Some(reason) = two_passes {
         left_out.add(Omitted::Pass(Pass::SmoothieBuffer), reason);
         return &[Pass::SmoothieDepth, Pass::SmoothieAlpha];
     }
-    let reason = if halves { Reason::HalvesBlend } else { Reason::DeviceBlendsFloats };
+    let reason = if has_halves(input) { Reason::HalvesBlend } else { Reason::DeviceBlendsFloats };
     left_out.add(Omitted::Pass(Pass::SmoothieDepth), reason);
     left_out.add(Omitted::Pass(Pass::SmoothieAlpha), reason);
     &[Pass::SmoothieBuffer]
 }
 
+fn has_halves(input: &PlanInput<'_>) -> bool {
+    input.settings.depth_precision == DepthPrecision::Bits16
+}
+
+/// Whether the device blends maps of linear depth.
+fn blends_depth(input: &PlanInput<'_>) -> bool {
+    has_halves(input) || input.device.float32_blendable
+}
+
 /// The pass that fills the silhouette map.
 fn silhouette_pass(input: &PlanInput<'_>, silhouettes: &SilhouetteMapSettings, left_out: &mut LeftOutList) -> Pass {
-    let blends = input.settings.depth_precision == DepthPrecision::Bits16 || input.device.float32_blendable;
     let (is_blended, not_otherwise) = match silhouettes.winner {
         SilhouetteWinner::ByDepth => (false, Reason::DepthTellsTheNearest),
-        SilhouetteWinner::ByBlending if blends => (true, Reason::BlendingAskedFor),
+        SilhouetteWinner::ByBlending if blends_depth(input) => (true, Reason::BlendingAskedFor),
         SilhouetteWinner::ByBlending => (false, Reason::DeviceBlendsNoFloats),
     };
     let by_depth = [Pass::SilhouetteMap, Pass::SilhouetteMapTam];
