@@ -63,9 +63,10 @@ fn is_hidden(quad: Quad) -> bool {
             deepest = max(deepest, textureLoad(shadow_depth, vec2u(x, y), 0).x * view.depth_unit);
         }
     }
-    let depth = min(depth_of_q(quad.q.x), depth_of_q(quad.q.y));
-    let bias = view.bias_smoothie_texels * texel_footprint(max(depth_of_q(quad.q.x), depth_of_q(quad.q.y)));
-    return depth > (deepest + bias) * (1.0 + ROUNDING);
+    let low_depth = depth_of_q(quad.q.x);
+    let high_depth = depth_of_q(quad.q.y);
+    let bias = view.bias_smoothie_texels * texel_footprint(max(low_depth, high_depth));
+    return min(low_depth, high_depth) > (deepest + bias) * (1.0 + ROUNDING);
 }
 
 // How far beyond an end its vertex is the nearest point of the outline on one side, as a share of the width: up to the
