@@ -1,11 +1,11 @@
 //! Recording a frame: the views that are due have seats in turn, as many at once as there are.
 
-use contrejour_plan::BufferKind;
+use contrejour_plan::{BufferKind, Pass};
 
 use crate::buffers::Buffers;
 use crate::frame::Recorded;
-use crate::lights::LightHandle;
-use crate::seats::Seated;
+use crate::lights::{LightHandle, LightState};
+use crate::seats::{Seated, Seats};
 use crate::shadows::Shadows;
 use crate::timer::PassTimer;
 
@@ -51,7 +51,9 @@ impl Shadows {
                 let counted = counted.as_mut().map(|counted| (key, counted));
                 light.encode_view(encoder, (shared, seats), (view, seat), counted, (&mut recorded, timer));
                 let seat_count = views.len().next_power_of_two();
-                after(encoder, &FilledView { light: LightHandle(key), view, seat, seat_count, shared });
+                let filled =
+                    FilledView { light: LightHandle(key), view, seat, seat_count, state: light, shared, seats };
+                after(encoder, &filled);
                 self.last_seat = seat;
             }
         }
@@ -79,12 +81,30 @@ pub struct FilledView<'a> {
     /// Seats of that bundle: how many [lit bits](BufferKind::Lit) a face has. [`lit_of_seat`](contrejour_layout::lit_of_seat)
     /// finds those of a view.
     pub seat_count: usize,
+    state: &'a LightState,
     shared: &'a Buffers,
+    seats: &'a Seats,
 }
 
 impl FilledView<'_> {
     /// What the view has in the buffers of a kind, page by page, as [`Shadows::buffers`] has them.
     pub fn buffers(&self, kind: BufferKind) -> impl Iterator<Item = wgpu::BufferSlice<'_>> {
         self.shared.parts(kind, self.seat)
+    }
+
+    /// Draws the triangles of a pass that filled the view's maps once more, by fragments of the caller's that bind nothing, to
+    /// see or to count what its vertex stage made. `into` draws to a target as large as the maps, without a depth buffer. A
+    /// pipeline is made for it: it is for tools and tests, not for a frame loop.
+    ///
+    /// Says whether the light's plan has the pass; nothing is drawn where it has not.
+    pub fn draw_again(
+        &self,
+        device: &wgpu::Device,
+        pass: Pass,
+        fragment: &wgpu::FragmentState<'_>,
+        into: &mut wgpu::RenderPass<'_>,
+    ) -> bool {
+        let Self { view, seat, state, shared, seats, .. } = *self;
+        state.draw_again(device, (pass, fragment, into), (shared, seats), (view, seat))
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contrejour_layout::LightView;
-use contrejour_plan::FramePlan;
+use contrejour_plan::{FramePlan, Pass};
 
 use crate::buffers::Buffers;
 use crate::pipelines::Pipelines;
@@ -102,9 +102,36 @@ impl Frame {
         (recorded, timer): (&mut Recorded, &mut T),
     ) {
         let drawn = DrawnView { view, seat, record, pages: &plan.pages };
-        for (pipeline, own) in self.passes.iter().zip(&self.views[view]) {
-            let of_pages = if pipeline.is_of_seat() { seats.of_pass(pipeline, seat) } else { &own.of_pages };
-            pipeline.encode(encoder, (of_pages, &own.of_levels), (shared, &self.textures), &drawn, recorded, timer);
+        for (pipeline, of_pages, of_levels) in self.bound_passes(seats, (view, seat)) {
+            pipeline.encode(encoder, (of_pages, of_levels), (shared, &self.textures), &drawn, recorded, timer);
         }
+    }
+
+    /// Draws the triangles of a pass with fragments of the caller's; says whether there is that pass.
+    pub fn draw_again(
+        &self,
+        device: &wgpu::Device,
+        (pass, fragment, into): (Pass, &wgpu::FragmentState<'_>, &mut wgpu::RenderPass<'_>),
+        (plan, record): (&FramePlan, &LightView),
+        (shared, seats): (&Buffers, &Seats),
+        (view, seat): (usize, usize),
+    ) -> bool {
+        let drawn = DrawnView { view, seat, record, pages: &plan.pages };
+        let found = self.bound_passes(seats, (view, seat)).find(|(pipeline, ..)| pipeline.pass() == pass);
+        let Some((pipeline, of_pages, of_levels)) = found else { return false };
+        pipeline.draw_again(device, (fragment, into), (of_pages, of_levels.first()), shared, &drawn);
+        true
+    }
+
+    /// The passes with what they bind for a view that has a seat: buffers page by page, and maps level by level.
+    fn bound_passes<'a>(
+        &'a self,
+        seats: &'a Seats,
+        (view, seat): (usize, usize),
+    ) -> impl Iterator<Item = (&'a MapPipeline, &'a [wgpu::BindGroup], &'a [wgpu::BindGroup])> {
+        self.passes.iter().zip(&self.views[view]).map(move |(pipeline, own)| {
+            let of_pages = if pipeline.is_of_seat() { seats.of_pass(pipeline, seat) } else { &own.of_pages };
+            (&**pipeline, of_pages, &own.of_levels[..])
+        })
     }
 }

@@ -3,7 +3,7 @@
 use contrejour_layout::{Counters, LightView, ReceiverView, VIEW_CULLS, VIEW_TESTS};
 use contrejour_plan::{
     BufferKind, BufferPlan, Capacity, CascadeError, DeviceFacts, Eye, FramePlan, FrameViews, LeftOut, Light, LightKind,
-    Omitted, Outputs, PlanError, PlanInput, Reason, SceneFacts, Stage, View, ViewChoice, frame_views,
+    Omitted, Outputs, Pass, PlanError, PlanInput, Reason, SceneFacts, Stage, View, ViewChoice, frame_views,
 };
 
 use crate::buffers::Buffers;
@@ -260,6 +260,19 @@ impl LightState {
                 counted.copy(encoder, counters, Page { light, capacity: page.capacity() });
             }
         }
+    }
+
+    /// Draws the triangles of a pass over a view once more; says whether the plan has that pass.
+    pub fn draw_again(
+        &self,
+        device: &wgpu::Device,
+        with: (Pass, &wgpu::FragmentState<'_>, &mut wgpu::RenderPass<'_>),
+        (shared, seats): (&Buffers, &Seats),
+        (view, seat): (usize, usize),
+    ) -> bool {
+        let Some(plan) = &self.plan else { return false };
+        let of_view = (plan, &self.records.light_views[view]);
+        self.frame.draw_again(device, with, of_view, (shared, seats), (view, seat))
     }
 
     /// Notes that its maps were made. Where it counts and its counters can't be copied, it stays due: its maps may lack what

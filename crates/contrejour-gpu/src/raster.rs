@@ -16,6 +16,8 @@ pub(crate) struct MapPipeline {
     planned: Planned,
     buffers_layout: wgpu::BindGroupLayout,
     map_layout: Option<wgpu::BindGroupLayout>,
+    layout: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
     pipelines: Vec<wgpu::RenderPipeline>,
 }
 
@@ -67,7 +69,7 @@ impl MapPipeline {
         let buffers_layout = buffers_layout(device, description);
         let map_layout = description.reads.map(|_| map_layout(device, description));
         let layouts: Vec<_> = std::iter::once(&buffers_layout).chain(&map_layout).map(Some).collect();
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(name),
             bind_group_layouts: &layouts,
             immediate_size: 0,
@@ -76,14 +78,20 @@ impl MapPipeline {
             label: Some(name),
             source: wgpu::ShaderSource::Wgsl(description.wgsl.into()),
         });
-        let targets = description.color.zip(planned.color).map(|(target, format)| {
+        let pipelines = Vec::new();
+        let without = Self { description, planned, buffers_layout, map_layout, layout, module, pipelines };
+        Self { pipelines: without.pipelines(device), ..without }
+    }
+
+    fn pipelines(&self, device: &wgpu::Device) -> Vec<wgpu::RenderPipeline> {
+        let targets = self.description.color.zip(self.planned.color).map(|(target, format)| {
             Some(wgpu::ColorTargetState {
                 format,
                 blend: target.minimum.then_some(wgpu::BlendState { color: MINIMUM, alpha: MINIMUM }),
                 write_mask: wgpu::ColorWrites::ALL,
             })
         });
-        let depth_stencil = planned.depth.map(|format| wgpu::DepthStencilState {
+        let depth_stencil = self.planned.depth.map(|format| wgpu::DepthStencilState {
             format,
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Less),
@@ -91,33 +99,42 @@ impl MapPipeline {
             bias: wgpu::DepthBiasState::default(),
         });
         let pipeline = |planned: &PipelinePlan| {
-            let EntryPoints::Raster { vertex, fragment, .. } = planned.entry_points else { return None };
-            let compilation_options =
-                wgpu::PipelineCompilationOptions { constants: &planned.constants, ..Default::default() };
-            Some(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(name),
-                layout: Some(&pipeline_layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some(vertex),
-                    compilation_options: compilation_options.clone(),
-                    buffers: &[],
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: depth_stencil.clone(),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: fragment.map(|fragment| wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(fragment),
-                    compilation_options,
-                    targets: targets.as_slice(),
-                }),
-                multiview_mask: None,
-                cache: None,
-            }))
+            let EntryPoints::Raster { fragment, .. } = planned.entry_points else { return None };
+            let fragment = fragment.map(|fragment| wgpu::FragmentState {
+                module: &self.module,
+                entry_point: Some(fragment),
+                compilation_options: constants(planned),
+                targets: targets.as_slice(),
+            });
+            self.pipeline(device, planned, (fragment, depth_stencil.clone()))
         };
-        let pipelines = planned.pipelines.iter().filter_map(pipeline).collect();
-        Self { description, planned, buffers_layout, map_layout, pipelines }
+        self.planned.pipelines.iter().filter_map(pipeline).collect()
+    }
+
+    /// A pipeline with the vertices of a draw.
+    fn pipeline(
+        &self,
+        device: &wgpu::Device,
+        planned: &PipelinePlan,
+        (fragment, depth_stencil): (Option<wgpu::FragmentState<'_>>, Option<wgpu::DepthStencilState>),
+    ) -> Option<wgpu::RenderPipeline> {
+        let EntryPoints::Raster { vertex, .. } = planned.entry_points else { return None };
+        Some(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(self.pass().name()),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: &self.module,
+                entry_point: Some(vertex),
+                compilation_options: constants(planned),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil,
+            multisample: wgpu::MultisampleState::default(),
+            fragment,
+            multiview_mask: None,
+            cache: None,
+        }))
     }
 
     /// Whether a light with this plan can use it.
@@ -201,7 +218,6 @@ impl MapPipeline {
         drawn: &DrawnView<'_>,
         timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) -> u32 {
-        let mut draws = 0;
         let color = self.description.color.map(|target| {
             Some(wgpu::RenderPassColorAttachment {
                 view: &textures.levels(target.texture, drawn.view)[level],
@@ -226,7 +242,34 @@ impl MapPipeline {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        for (count, pipeline) in self.description.draws.iter().zip(&self.pipelines) {
+        self.draw(&mut pass, &self.pipelines, (of_pages, map), buffers, drawn)
+    }
+
+    /// Draws its triangles with fragments of the caller's, without a depth test.
+    pub fn draw_again(
+        &self,
+        device: &wgpu::Device,
+        (fragment, into): (&wgpu::FragmentState<'_>, &mut wgpu::RenderPass<'_>),
+        groups: (&[wgpu::BindGroup], Option<&wgpu::BindGroup>),
+        buffers: &Buffers,
+        drawn: &DrawnView<'_>,
+    ) {
+        let pipeline = |planned| self.pipeline(device, planned, (Some(fragment.clone()), None));
+        let pipelines: Vec<_> = self.planned.pipelines.iter().filter_map(pipeline).collect();
+        self.draw(into, &pipelines, groups, buffers, drawn);
+    }
+
+    /// Draws all pages; returns the number of draws.
+    fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipelines: &[wgpu::RenderPipeline],
+        (of_pages, map): (&[wgpu::BindGroup], Option<&wgpu::BindGroup>),
+        buffers: &Buffers,
+        drawn: &DrawnView<'_>,
+    ) -> u32 {
+        let mut draws = 0;
+        for (count, pipeline) in self.description.draws.iter().zip(pipelines) {
             pass.set_pipeline(pipeline);
             if let Some(map) = map {
                 pass.set_bind_group(1, map, &[]);
@@ -248,6 +291,10 @@ impl MapPipeline {
         }
         draws
     }
+}
+
+fn constants(planned: &PipelinePlan) -> wgpu::PipelineCompilationOptions<'_> {
+    wgpu::PipelineCompilationOptions { constants: &planned.constants, ..Default::default() }
 }
 
 /// The format of a target that the plan lists, since it lists the pass that fills it.
