@@ -53,7 +53,8 @@ pub struct RenderArguments {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
-    /// Also write shadow map, smoothie depth, smoothie alpha, visibility and silhouette as PNG; maps of a light with several
+    /// Also write the maps that each light has (shadow map, smoothie depth and alpha, silhouette depth, signed distance), the
+    /// scaled faces or the strips that filled a silhouette map, visibility and silhouette as PNG; maps of a light with several
     /// views are a file for each: each side of the cube around a point light, each cascade
     #[arg(long, value_name = "DIR")]
     pub views: Option<PathBuf>,

@@ -11,6 +11,7 @@ mod animated;
 mod caster_meshes;
 mod casters;
 mod error;
+mod filled_views;
 mod frame_plan;
 mod frame_uniforms;
 mod full_screen;

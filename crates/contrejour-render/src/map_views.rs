@@ -72,6 +72,28 @@ pub(crate) fn distance_view(distances: &[f32], is_near: &[bool], size: u32) -> M
     MapView { picture, legend }
 }
 
+/// Grey of a texel that one triangle covers; what none covers is black.
+const ONCE_GREY: f32 = 64.0;
+
+/// How many triangles cover each texel, as greys.
+pub(crate) fn count_view(counts: &[f32], size: u32, what: &str) -> MapView {
+    let most = counts.iter().copied().fold(0.0, f32::max);
+    let grey = |count: f32| {
+        let share = if most > 1.0 { (count - 1.0) / (most - 1.0) } else { 1.0 };
+        if count > 0.0 { (ONCE_GREY + share * (255.0 - ONCE_GREY)).round() as u8 } else { 0 }
+    };
+    let covered = counts.iter().filter(|&&count| count > 0.0).count();
+    let legend = if covered > 0 {
+        let mean = counts.iter().sum::<f32>() / covered as f32;
+        format!(
+            "black: no triangle of the {what}, dark grey: one, white: {most}; {mean:.1} in the mean where there are any"
+        )
+    } else {
+        format!("black: no triangle of the {what}")
+    };
+    MapView { picture: grey_picture(counts, size, grey), legend }
+}
+
 fn grey_picture(values: &[f32], size: u32, grey: impl Fn(f32) -> u8) -> RgbaImage {
     RgbaImage::from_fn(size, size, |x, y| {
         let grey = grey(values[y as usize * size as usize + x as usize]);
@@ -108,6 +130,18 @@ mod tests {
         assert_eq!(colors, [[64, 32, 0], [0, 79, 159], [0, 127, 255], [0, 0, 0]]);
         assert!(view.legend.contains("2.00 texels"), "{}", view.legend);
         assert_eq!(distance_view(&[0.0], &[false], 1).legend, "black: no silhouette is near");
+    }
+
+    #[test]
+    fn what_is_drawn_more_often_is_brighter() {
+        let view = count_view(&[0.0, 1.0, 3.0, 2.0], 2, "faces");
+        assert_eq!(greys(&view), [0, 64, 255, 160]);
+        assert_eq!(
+            view.legend,
+            "black: no triangle of the faces, dark grey: one, white: 3; 2.0 in the mean where there are any"
+        );
+        assert_eq!(greys(&count_view(&[0.0, 1.0, 1.0, 0.0], 2, "faces")), [0, 255, 255, 0]);
+        assert_eq!(count_view(&[0.0], 1, "faces").legend, "black: no triangle of the faces");
     }
 
     #[test]

@@ -32,6 +32,9 @@ pub(crate) const JUDGED_VISIBILITY: &str = wgsl!("raster/judged_visibility", "sh
 /// Silhouette edges as lines.
 pub(crate) const SILHOUETTE_LINES: &str = wgsl!("raster/silhouette_lines");
 
+/// Triangles of a pass of the library's, counted.
+pub(crate) const COUNTED_TRIANGLES: &str = wgsl!("raster/counted_triangles");
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,6 +79,11 @@ mod tests {
     #[test]
     fn judged_visibility_is_valid() {
         valid(&format!("{JUDGED_VISIBILITY}{UNSHADOWED}"));
+    }
+
+    #[test]
+    fn counted_triangles_are_valid() {
+        valid(COUNTED_TRIANGLES);
     }
 
     #[test]

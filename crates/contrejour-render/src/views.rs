@@ -1,17 +1,17 @@
 //! Pictures of what stands behind a picture: maps, visibility and silhouettes.
 
-use contrejour_gpu::{LightHandle, Untimed};
+use contrejour_gpu::LightHandle;
 use contrejour_layout::SilhouetteEdge;
-use contrejour_plan::{BufferKind, DepthPrecision, LightKind, Stage, frame_views};
+use contrejour_plan::{DepthPrecision, LightKind, Pass, frame_views};
 use image::RgbaImage;
 
-use crate::error::{DrawError, MAX_REPEATS};
+use crate::error::DrawError;
+use crate::filled_views::{CountedTriangles, Found};
 use crate::map_texels::read_texels;
-use crate::map_views::{MapView, alpha_view, depth_view, distance_view};
-use crate::readback::{ReadError, copied_buffer, read_picture};
+use crate::map_views::{MapView, alpha_view, count_view, depth_view, distance_view};
+use crate::readback::{ReadError, read_picture};
 use crate::renderer::Renderer;
 use crate::silhouette_lines::SilhouetteLines;
-use crate::silhouettes::read_pages;
 use crate::targets::{COLOR_FORMAT, Targets};
 
 /// One view of the last frame.
@@ -39,17 +39,17 @@ impl Renderer {
     /// [`DrawError`] when the device does not allow the frame or fails.
     pub fn views(&mut self) -> Result<Vec<View>, DrawError> {
         let casting: Vec<Casting> = self.lights.casting_indices().collect();
-        let silhouettes = self.silhouettes()?;
+        let found = self.find_in_views()?;
         let mut views = Vec::new();
         for light in casting {
-            let mut of_light = self.map_views(light)?;
+            let found: Vec<&Found> = found.iter().filter(|found| found.light == light.1).collect();
+            let mut of_light = self.map_views(light, &found)?;
             of_light.push(View {
                 name: "visibility".to_owned(),
                 picture: self.visibility_picture(light)?,
                 legend: "white: the light is seen, black: it is hidden".to_owned(),
             });
-            let edges = silhouettes.iter().filter(|(of, _)| *of == light.1);
-            let edges: Vec<SilhouetteEdge> = edges.flat_map(|(_, edges)| edges).copied().collect();
+            let edges: Vec<SilhouetteEdge> = found.iter().flat_map(|found| &found.silhouettes).copied().collect();
             of_light.push(View {
                 name: "silhouette".to_owned(),
                 picture: self.silhouette_picture(&edges)?,
@@ -65,13 +65,17 @@ impl Renderer {
     }
 
     /// The maps of a light, view by view.
-    fn map_views(&self, light: Casting) -> Result<Vec<View>, ReadError> {
+    fn map_views(&self, light: Casting, found: &[&Found]) -> Result<Vec<View>, ReadError> {
         let kind = self.lights.local(light.0).kind;
         let mut views = Vec::new();
         let depth_ranges = self.depth_ranges(light);
         let count = depth_ranges.len() as u32;
         for (index, depths) in (0..).zip(depth_ranges) {
-            let of_view = self.maps_of_view(light, (index, count), depths)?;
+            let mut of_view = self.maps_of_view(light, (index, count), depths)?;
+            let found = found.iter().find(|found| found.view == index as usize);
+            if let Some(triangles) = found.and_then(|found| found.triangles.as_ref()) {
+                of_view.push(self.triangle_view(triangles)?);
+            }
             views.extend(of_view.into_iter().map(|view| View { name: view.name + &suffix(&kind, index), ..view }));
         }
         Ok(views)
@@ -125,6 +129,18 @@ impl Renderer {
         Ok(views)
     }
 
+    /// The triangles that were drawn to fill a silhouette map.
+    fn triangle_view(&self, triangles: &CountedTriangles) -> Result<View, ReadError> {
+        let (name, what) = match triangles.pass {
+            Pass::SilhouetteMapTam | Pass::BlendedSilhouetteMapTam => ("scaled_faces", "scaled faces"),
+            _ => ("strips", "strips along silhouette edges"),
+        };
+        let counts = read_texels(&self.gpu, &triangles.counts, 0)?;
+        let counts: Vec<f32> = counts.into_iter().map(|[count, _]| count).collect();
+        let MapView { picture, legend } = count_view(&counts, triangles.counts.width(), what);
+        Ok(View { name: name.to_owned(), picture, legend })
+    }
+
     /// Depth in local units that 1 stands for in maps of linear depth.
     fn depth_unit(&self, light: Casting, [_, far]: [f64; 2]) -> f32 {
         let precision = self.cast.shadows.plan(light.1).map(|plan| plan.settings.depth_precision);
@@ -173,44 +189,6 @@ impl Renderer {
         self.picture_pass.encode(&mut encoder, (&view, COLOR_FORMAT), None);
         self.gpu.queue.submit([encoder.finish()]);
         read_picture(&self.gpu, &self.picture)
-    }
-
-    /// Silhouettes of all views of all lights, one list for each view of a light that looks for them. The lists are filled
-    /// for one view after the other, so they are copied as they are made.
-    fn silhouettes(&mut self) -> Result<Vec<(LightHandle, Vec<SilhouetteEdge>)>, DrawError> {
-        for _ in 0..MAX_REPEATS {
-            let silhouettes = self.silhouettes_that_fit()?;
-            if self.cast.wait_until_done(&self.gpu)? {
-                return Ok(silhouettes);
-            }
-        }
-        Err(DrawError::Incomplete)
-    }
-
-    fn silhouettes_that_fit(&mut self) -> Result<Vec<(LightHandle, Vec<SilhouetteEdge>)>, DrawError> {
-        let eye_local = self.eye_local();
-        let Self { gpu, cast, .. } = self;
-        cast.shadows.redraw();
-        cast.prepare(gpu, &self.casters, self.lights.casting(), &eye_local)?;
-        let looks =
-            |light: &LightHandle| cast.shadows.plan(*light).is_some_and(|plan| plan.has_stage(Stage::DetectSilhouette));
-        let looking: Vec<LightHandle> = self.lights.handles.iter().flatten().copied().filter(looks).collect();
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let mut copies = Vec::new();
-        cast.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
-            if looking.contains(&view.light) {
-                let mut copied = |kind| -> Vec<wgpu::Buffer> {
-                    view.buffers(kind).map(|buffer| copied_buffer(gpu, encoder, buffer)).collect()
-                };
-                copies.push((view.light, copied(BufferKind::Counters), copied(BufferKind::Silhouettes)));
-            }
-        });
-        gpu.queue.submit([encoder.finish()]);
-        let read = |(light, counters, silhouettes): &(LightHandle, Vec<wgpu::Buffer>, Vec<wgpu::Buffer>)| {
-            let pages = counters.iter().zip(silhouettes).map(|(counters, list)| (counters.slice(..), list.slice(..)));
-            Ok((*light, read_pages(gpu, pages)?))
-        };
-        copies.iter().map(read).collect()
     }
 }
 

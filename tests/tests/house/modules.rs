@@ -67,6 +67,7 @@ pub fn all() -> Vec<Module> {
         ("picture", &["raster/picture", "shared/tone_map", "shared/full_screen"]),
         ("compose", &["raster/compose", "shared/surface_light", "shared/falloff", "shared/tone_map", "shared/surface"]),
         ("silhouette_lines", &["raster/silhouette_lines"]),
+        ("counted_triangles", &["raster/counted_triangles"]),
     ] {
         modules.push(Module { name: name.into(), wgsl: joined(files) });
     }

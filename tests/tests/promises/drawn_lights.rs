@@ -75,6 +75,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("drawn_lights::a_picture_of_the_callers_is_the_same", |_| a_picture_of_the_callers_is_the_same()),
         gpu_trial("drawn_lights::rims_show_no_shadow_of_rounding", |_| rims_show_no_shadow_of_rounding()),
         gpu_trial("drawn_lights::each_light_has_its_views", |_| each_light_has_its_views()),
+        gpu_trial("drawn_lights::triangles_of_silhouette_maps_are_seen", |_| triangles_of_silhouette_maps_are_seen()),
     ]
 }
 
@@ -286,6 +287,62 @@ fn each_light_has_its_views() -> Outcome {
         Ok(()) => Err("two lights are seen from the same places".into()),
         Err(_) => Ok(()),
     }
+}
+
+/// What each side of the cube around a point light drew to fill its silhouette map covers all that the map holds, and not
+/// what the map of another side holds.
+fn triangles_of_silhouette_maps_are_seen() -> Outcome {
+    let lamp = |technique: &str| {
+        format!(
+            r#"
+size = [32, 24]
+[camera]
+eye = [3, 2, 5]
+target = [0, 0, 0]
+[shadow]
+technique = "{technique}"
+map_size = 128
+[light]
+kind = "point"
+position = [0.4, 1.1, 1.5]
+radius = 0.05
+[[mesh]]
+shape = {{ kind = "box" }}
+[[mesh]]
+shape = {{ kind = "torus", radius = 0.6, tube_radius = 0.2, segments = 32, sides = 16 }}
+translate = [1.6, 1.3, 2.4]
+"#
+        )
+    };
+    let sides = ["positive-x", "negative-x", "positive-y", "negative-y", "positive-z", "negative-z"];
+    for (technique, triangles) in [("silhouette-map", "strips"), ("silhouette-map-tam", "scaled_faces")] {
+        let scene = Scene::from_toml(&lamp(technique), Path::new(""), "lamp.toml").map_err(text)?;
+        let mut renderer = renderer(&scene)?;
+        renderer.draw_complete().map_err(text)?;
+        let views = renderer.views().map_err(text)?;
+        let drawn = |name: &str, side: &str| -> Result<Vec<bool>, String> {
+            let name = format!("{name}-{side}");
+            let view = views.iter().find(|view| view.name == name).ok_or(format!("{technique}: no {name}"))?;
+            Ok(view.picture.pixels().map(|pixel| pixel.0 != [0, 0, 0, 255]).collect())
+        };
+        let uncovered = |held: &[bool], covered: &[bool]| {
+            held.iter().zip(covered).filter(|(is_held, is_covered)| **is_held && !**is_covered).count()
+        };
+        let (mut held_texels, mut in_another) = (0, 0);
+        for (side, next) in sides.iter().zip(sides.iter().cycle().skip(1)) {
+            let held = drawn("signed_distance", side)?;
+            held_texels += held.iter().filter(|is_held| **is_held).count();
+            let missing = uncovered(&held, &drawn(triangles, side)?);
+            if missing > 0 {
+                return Err(format!("{technique}, {side}: {missing} texels of the map were not drawn"));
+            }
+            in_another += uncovered(&held, &drawn(triangles, next)?);
+        }
+        if in_another == 0 {
+            return Err(format!("{technique}: of {held_texels} texels all are drawn in the view of another side too"));
+        }
+    }
+    Ok(())
 }
 
 /// A column in the sun, seen along one ray by a camera whose target is near or ten times as far. Its surface is where it
