@@ -83,6 +83,18 @@ pub fn cascades(mesh: &TestMesh) -> Vec<View> {
     views.into_iter().flatten().map(|cascade| cascade.view).collect()
 }
 
+/// The same light ten times as wide: its penumbrae are several texels wide.
+pub fn widened(light: &Light) -> Light {
+    let mut widened = *light;
+    match &mut widened.kind {
+        LightKind::Spot { radius: size, .. }
+        | LightKind::Point { radius: size, .. }
+        | LightKind::Directional { angular_radius: size, .. }
+        | LightKind::Cascaded { angular_radius: size, .. } => *size *= 10.0,
+    }
+    widened
+}
+
 /// A spot at a point that looks at a target, wide enough to hold most of what is around it; parallel light from there
 /// where a spot has no place within 32-bit numbers.
 pub fn point(position: DVec3, target: DVec3, radius: f64) -> Light {

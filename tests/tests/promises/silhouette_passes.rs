@@ -7,12 +7,12 @@ use bytemuck::cast_slice;
 use contrejour_gpu::passes::{self, MapPass};
 use contrejour_layout::FaceNeighbours;
 use contrejour_mesh::face_neighbours;
-use contrejour_plan::{Light, LightKind, Pass, SilhouetteSource, View, views};
+use contrejour_plan::{Pass, SilhouetteSource, View, views};
 use contrejour_tests::chain::Chain;
 use contrejour_tests::frame::Frame;
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
-use contrejour_tests::lights::{cascades, lamps, lights};
+use contrejour_tests::lights::{cascades, lamps, lights, widened};
 use contrejour_tests::map_run::MapRun;
 use contrejour_tests::meshes::{self, TestMesh};
 use contrejour_tests::planted::{Replaced, check_each_is_found};
@@ -106,18 +106,6 @@ fn faults_are_found(gpu: &Gpu, source: SilhouetteSource, faults: &[Replaced]) ->
     let wgsl = pass_of(source).wgsl;
     check(wgsl)?;
     check_each_is_found(wgsl, faults, check)
-}
-
-/// A light whose penumbrae are several texels wide.
-fn widened(light: &Light) -> Light {
-    let mut widened = *light;
-    match &mut widened.kind {
-        LightKind::Spot { radius: size, .. }
-        | LightKind::Point { radius: size, .. }
-        | LightKind::Directional { angular_radius: size, .. }
-        | LightKind::Cascaded { angular_radius: size, .. } => *size *= 10.0,
-    }
-    widened
 }
 
 fn run_of(gpu: &Gpu, source: SilhouetteSource, wgsl: &str) -> MapRun {
