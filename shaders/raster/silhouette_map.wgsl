@@ -69,9 +69,9 @@ fn is_hidden(quad: Quad) -> bool {
     return min(low_depth, high_depth) > (deepest + bias) * (1.0 + ROUNDING);
 }
 
-// How far beyond an end its vertex is the nearest point of the outline on one side, as a share of the width: up to the
-// neighbour's normal, as far as the strip is wide. All around the end where the outline turns by more than half a right angle,
-// since a strip ends in a straight line, and where it does not go on as one.
+// How far beyond an end its vertex can be the nearest point of the outline on one side, as a share of the width: up to the
+// normal of each other outline edge there, beyond which that one is nearer. All around the end where the outline turns by more
+// than half a right angle, since a strip ends in a straight line.
 fn share_beyond(quad: Quad, is_high: bool, onwards: vec2f, across: vec2f) -> f32 {
     let caster = casters[quad.caster];
     let vertex = select(quad.low_vertex, quad.high_vertex, is_high);
@@ -81,7 +81,6 @@ fn share_beyond(quad: Quad, is_high: bool, onwards: vec2f, across: vec2f) -> f32
     if (quad.own_ends & select(OWN_END_LOW, OWN_END_HIGH, is_high)) == 0u || last - first > MAX_SEARCHED_VALENCE {
         return 1.0;
     }
-    var neighbours = 0u;
     var share = 1.0;
     for (var i = first; i < last; i++) {
         let word = caster.first_vertex_edge_word + 2u * i;
@@ -89,15 +88,14 @@ fn share_beyond(quad: Quad, is_high: bool, onwards: vec2f, across: vec2f) -> f32
         if edge_id == quad.edge_id || side_of_edge(caster, edge_id) == OUTLINE_NONE {
             continue;
         }
-        neighbours++;
         let direction = direction_from(vertex, vertex_edges[word + 1u], quad.caster);
         let cosine = dot(direction, onwards);
         let sine = dot(direction, across);
         if cosine > abs(sine) {
-            share = max(-sine, 0.0) / cosine;
+            share = min(share, max(-sine, 0.0) / cosine);
         }
     }
-    return select(1.0, share, neighbours == 1u);
+    return share;
 }
 
 @fragment
