@@ -1,7 +1,7 @@
 // Fills the silhouette map of a light view as topology-aware meshes do it: the vertex stage asks each face and its
 // neighbours for outline edges, and draws a face that has some larger.
 // One vertex invocation = one corner of one face of one work item.
-// Reads face_items, casters, caster_lights, faces, face_neighbours, positions, and the linear depth of the shadow map.
+// Reads face_items, casters, caster_lights, faces, face_neighbours, edge_fans, positions, and the linear depth of the shadow map.
 // Valient & Bujnak 2005, equations 1 and 2.
 
 @group(0) @binding(0) var<uniform> view: LightView;
@@ -10,7 +10,8 @@
 @group(0) @binding(3) var<storage, read> caster_lights: array<CasterLight>;
 @group(0) @binding(4) var<storage, read> faces: array<Face>;
 @group(0) @binding(5) var<storage, read> face_neighbours: array<FaceNeighbours>;
-@group(0) @binding(6) var<storage, read> positions: array<u32>;
+@group(0) @binding(6) var<storage, read> edge_fans: array<u32>;
+@group(0) @binding(7) var<storage, read> positions: array<u32>;
 @group(1) @binding(0) var shadow_depth: texture_2d<f32>;
 
 struct SilhouetteVertex {
@@ -66,8 +67,15 @@ fn vertex_silhouette_face(@builtin(vertex_index) index: u32) -> SilhouetteVertex
     var images: array<OutlineImage, 3>;
     for (var i = 0u; i < 3u; i++) {
         let j = (i + 1u) % 3u;
+        let runs_up = ids[i] < ids[j];
         var is_outline = across[i] == ACROSS_NOTHING;
-        if across[i] < ACROSS_NEVER && (is_lit || (across[i] & ACROSS_ALONE) != 0u) {
+        var blocker_left = is_lit == runs_up;
+        if across[i] < ACROSS_NEVER && (across[i] & (ACROSS_ALONG | ACROSS_ALONE)) == ACROSS_FAN {
+            let ends = vec2u(min(ids[i], ids[j]), max(ids[i], ids[j]));
+            let sides = sides_of_fan(caster, clip_from_object, ends, across[i] & ~ACROSS_FAN);
+            is_outline = sides.x == 0u || sides.y == 0u;
+            blocker_left = sides.y == 0u;
+        } else if across[i] < ACROSS_NEVER && (is_lit || (across[i] & ACROSS_ALONE) != 0u) {
             let is_along = (across[i] & ACROSS_ALONG) != 0u;
             let first = select(ids[j], ids[i], is_along);
             let second = select(ids[i], ids[j], is_along);
@@ -78,7 +86,6 @@ fn vertex_silhouette_face(@builtin(vertex_index) index: u32) -> SilhouetteVertex
             continue;
         }
         // From the lower to the higher id, as edges run, so that both sides of it round alike.
-        let runs_up = ids[i] < ids[j];
         let low = select(corners[j], corners[i], runs_up);
         let high = select(corners[i], corners[j], runs_up);
         let direction = image_direction(clip_from_object, low, high);
@@ -89,7 +96,7 @@ fn vertex_silhouette_face(@builtin(vertex_index) index: u32) -> SilhouetteVertex
         if !is_in_view(image) {
             continue;
         }
-        let outward = select(counter_clockwise(direction), clockwise(direction), is_lit == runs_up);
+        let outward = select(counter_clockwise(direction), clockwise(direction), blocker_left);
         images[i] = OutlineImage(image.low.ndc, image.high.ndc, outward, vec2f(image.low.q, image.high.q));
         vertex.outlines |= 1u << i;
     }
@@ -155,6 +162,22 @@ fn nearest_of_face(vertex: SilhouetteVertex, nearest: ptr<function, SilhouettePo
         }
     }
     return is_any_drawn;
+}
+
+// Faces on the left and on the right of an edge of several, as the stages count them: one is on the left where its sign and
+// its way along the edge agree.
+fn sides_of_fan(caster: Caster, clip_from_object: mat4x4f, ends: vec2u, offset: u32) -> vec2u {
+    let fan = caster.first_incidence + offset;
+    let count = edge_fans[fan];
+    var left = 0u;
+    for (var i = 1u; i <= count; i++) {
+        let is_along = (edge_fans[fan + i] & ACROSS_ALONG) != 0u;
+        let third = edge_fans[fan + i] & ~ACROSS_ALONG;
+        let face = array<u32, 3>(select(ends.y, ends.x, is_along), select(ends.x, ends.y, is_along), third);
+        let is_lit = third != FAN_UNLIT && faces_light(caster, clip_from_object, face);
+        left += select(0u, 1u, is_lit == is_along);
+    }
+    return vec2u(left, count - left);
 }
 
 // Whether a face shows the light its front: whether its image runs counter-clockwise, also where it crosses the light's

@@ -13,7 +13,7 @@ use crate::meshes::TestPart;
 use crate::random::Random;
 
 /// Words that lie between the parts of a pool and mean nothing: a stage that reads them goes wrong.
-const GAP: [u32; 7] = [0xdead_beef; 7];
+pub const GAP: [u32; 7] = [0xdead_beef; 7];
 
 /// From one seat's draws to the next one's.
 pub const DRAW_STRIDE: usize = 256 / size_of::<DrawArgs>();

@@ -178,7 +178,7 @@ impl MeshPool {
             BufferKind::Positions => POSITIONS,
             BufferKind::Faces | BufferKind::FaceNeighbours | BufferKind::Planes => 1,
             BufferKind::Edges => 2,
-            BufferKind::Incidences => 3,
+            BufferKind::EdgeFans | BufferKind::Incidences => 3,
             BufferKind::VertexEdges => 4,
             BufferKind::MaskWords => return Some(self.masks.used_words()),
             _ => return None,

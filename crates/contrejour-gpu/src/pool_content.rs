@@ -1,15 +1,21 @@
 //! What of a mesh lies in each pool. Each is written with `write(byte offset, bytes)`.
 
 use contrejour_layout::{BLOCK_SIZE, Edge, Face, FaceNeighbours, VertexEdge};
-use contrejour_mesh::{FacePlanes, face_neighbours};
+use contrejour_mesh::{FacePlanes, edge_fans, face_neighbours};
 use contrejour_plan::{BufferKind, MeshPiece};
 
 use crate::pieces::vertex_edges_of_piece;
 use crate::pool::{MeshPool, PlacedPiece};
 
 /// The pools that meshes fill page by page, but for planes.
-pub(crate) const MESH_POOLS: [BufferKind; 5] =
-    [BufferKind::Faces, BufferKind::FaceNeighbours, BufferKind::Edges, BufferKind::Incidences, BufferKind::VertexEdges];
+pub(crate) const MESH_POOLS: [BufferKind; 6] = [
+    BufferKind::Faces,
+    BufferKind::FaceNeighbours,
+    BufferKind::EdgeFans,
+    BufferKind::Edges,
+    BufferKind::Incidences,
+    BufferKind::VertexEdges,
+];
 
 impl MeshPool {
     /// Writes meshes' own positions, all or those of meshes that are new.
@@ -42,13 +48,16 @@ impl MeshPool {
                 write(size_of::<Face>() as u64 * u64::from(place.face), bytemuck::cast_slice(faces));
             }
             // No vertex stage asks masked faces.
-            BufferKind::FaceNeighbours if pooled.is_masked() => {}
+            BufferKind::FaceNeighbours | BufferKind::EdgeFans if pooled.is_masked() => {}
             BufferKind::FaceNeighbours => {
                 let first = piece.first_face;
                 let neighbours = face_neighbours(mesh, first..first + piece.faces);
                 let offset = size_of::<FaceNeighbours>() as u64 * u64::from(place.face);
                 write(offset, bytemuck::cast_slice(&neighbours));
             }
+            // Faces around an edge may be in several pieces, so there they are asked in pairs.
+            BufferKind::EdgeFans if *piece != MeshPiece::whole(piece.mesh, &pooled.facts) => {}
+            BufferKind::EdgeFans => write(4 * u64::from(place.incidence), bytemuck::cast_slice(&edge_fans(mesh))),
             BufferKind::Edges => {
                 let edges = &mesh.edges[piece.first_edge as usize..][..piece.edges() as usize];
                 write(size_of::<Edge>() as u64 * u64::from(place.edge), bytemuck::cast_slice(edges));

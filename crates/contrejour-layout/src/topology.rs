@@ -15,8 +15,8 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// What is across the three edges of a face: the third corner of the face there, or [`ACROSS_NOTHING`], or
-    /// [`ACROSS_NEVER`]; with the bits [`ACROSS_ALONG`] and [`ACROSS_ALONE`].
+    /// What is across the three edges of a face: the third corner of the face there, with the bits [`ACROSS_ALONG`] and
+    /// [`ACROSS_ALONE`]; or [`ACROSS_NOTHING`], [`ACROSS_NEVER`] or [`ACROSS_FAN`].
     FaceNeighbours {
         /// Across the edge from the first to the second corner.
         across_ab: u32,
@@ -33,8 +33,16 @@ pub const ACROSS_NOTHING: u32 = u32::MAX;
 /// The edge is never in the silhouette.
 pub const ACROSS_NEVER: u32 = u32::MAX - 1;
 
+/// The two highest bits of a word of [`FaceNeighbours`] where more than two faces are at the edge and this one draws it: the
+/// others are the offset of the edge's fan, a count and then a word for each face. That is its third corner, or
+/// [`FAN_UNLIT`], and [`ACROSS_ALONG`] where its sign counts as it is (see [`INCIDENCE_ALONG`]).
+pub const ACROSS_FAN: u32 = 1 << 31;
+
+/// Third corner of a face that is unlit whatever the light.
+pub const FAN_UNLIT: u32 = (1 << 30) - 1;
+
 /// Bit of a word of [`FaceNeighbours`]: the face across runs along the edge as this one does, so one of the two is wound the
-/// wrong way.
+/// wrong way. Never without [`ACROSS_ALONE`].
 pub const ACROSS_ALONG: u32 = 1 << 31;
 
 /// Bit of a word of [`FaceNeighbours`]: the face across may not draw the edge, so this one does also where it is unlit.

@@ -18,6 +18,8 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("INCIDENCE_NONE", layout::INCIDENCE_NONE),
     ("ACROSS_NOTHING", layout::ACROSS_NOTHING),
     ("ACROSS_NEVER", layout::ACROSS_NEVER),
+    ("ACROSS_FAN", layout::ACROSS_FAN),
+    ("FAN_UNLIT", layout::FAN_UNLIT),
     ("ACROSS_ALONG", layout::ACROSS_ALONG),
     ("ACROSS_ALONE", layout::ACROSS_ALONE),
     ("INCIDENCE_LIST", layout::INCIDENCE_LIST),

@@ -7,10 +7,10 @@ use std::f64::consts::TAU;
 use bytemuck::cast_slice;
 use contrejour_gpu::passes::{self, MapPass};
 use contrejour_layout::FaceNeighbours;
-use contrejour_mesh::face_neighbours;
+use contrejour_mesh::{edge_fans, face_neighbours};
 use contrejour_plan::{Pass, SilhouetteSource, View, views};
 use contrejour_tests::chain::Chain;
-use contrejour_tests::frame::Frame;
+use contrejour_tests::frame::{Frame, GAP};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::{cascades, lamps, lights, widened};
@@ -59,7 +59,10 @@ const FAULTS_FROM_QUADS: &[Replaced] = &[
 
 const FAULTS_FROM_FACES: &[Replaced] = &[
     ("(is_lit == faces_light(caster, clip_from_object, face_across)) == is_along", "is_along"),
-    ("select(counter_clockwise(direction), clockwise(direction), is_lit == runs_up)", "clockwise(direction)"),
+    ("select(counter_clockwise(direction), clockwise(direction), blocker_left)", "clockwise(direction)"),
+    ("sides.x == 0u || sides.y == 0u", "sides.x != sides.y"),
+    ("blocker_left = sides.y == 0u;", "blocker_left = sides.x == 0u;"),
+    ("select(0u, 1u, is_lit == is_along)", "select(0u, 1u, is_lit)"),
     ("(inradius + reach) / inradius", "(inradius + 0.5 * reach) / inradius"),
     ("2.0 * size * vec2f(", "size * vec2f("),
     ("point.order < (*nearest).order", "false"),
@@ -71,6 +74,7 @@ struct Case {
     view: View,
     frame: Frame,
     neighbours: Vec<FaceNeighbours>,
+    fans: Vec<u32>,
     shadow_depth: Vec<f32>,
     expected: Vec<Expected>,
 }
@@ -96,7 +100,7 @@ fn faults_are_found(gpu: &Gpu, source: SilhouetteSource, faults: &[Replaced]) ->
     let mut cases = Vec::new();
     let shapes = meshes::shapes().into_iter();
     let chosen = shapes.filter(|mesh| ["knot", "fence", "elephant", "box"].contains(&&*mesh.name));
-    for mesh in chosen.chain([pinwheel()]) {
+    for mesh in chosen.chain([pinwheel(), book([1.8, 1.9, 2.0, 2.1]), book([0.3, 1.4, 2.2, 4.0])]) {
         let all = lights(&mesh);
         for light in [&all[0], &all[8], &lamps(&mesh)[1]] {
             let views = views(&widened(light)).map_err(|error| error.to_string())?;
@@ -120,6 +124,14 @@ fn pinwheel() -> TestMesh {
     };
     let positions: Vec<[f32; 3]> = std::iter::once([0.0; 3]).chain((0..6).map(on_circle)).collect();
     TestMesh::generated("pinwheel", &positions, &[[0, 2, 1], [0, 4, 3], [0, 6, 5]])
+}
+
+/// Pages at these angles that share an edge, two wound one way and two the other.
+fn book(angles: [f64; 4]) -> TestMesh {
+    let page = |angle: f64| DVec3::new(angle.cos(), 0.5, angle.sin()).as_vec3().to_array();
+    let pages = angles.map(page);
+    let positions: Vec<[f32; 3]> = [[0.0; 3], [0.0, 1.0, 0.0]].into_iter().chain(pages).collect();
+    TestMesh::generated("book", &positions, &[[0, 1, 2], [1, 0, 3], [0, 1, 4], [1, 0, 5]])
 }
 
 fn run_of(gpu: &Gpu, source: SilhouetteSource, wgsl: &str) -> MapRun {
@@ -149,10 +161,11 @@ impl Case {
         let gap = FaceNeighbours { across_ab: u32::MAX, across_bc: u32::MAX, across_ca: u32::MAX };
         let of_part = |part: &meshes::TestPart| face_neighbours(&part.topology, 0..part.topology.faces.len() as u32);
         let neighbours = mesh.parts.iter().flat_map(|part| [vec![gap], of_part(part)].concat()).collect();
+        let fans = mesh.parts.iter().flat_map(|part| [GAP.to_vec(), edge_fans(&part.topology)].concat()).collect();
         let quads = &frame.quads[..frame.counts().quads as usize];
         let shadow_depth = hiding_half(quads.iter().map(|quad| depth_of_q(&frame, quad.q[0])).collect(), &view);
         let expected = Definition { record: frame.view(), shadow_depth: &shadow_depth }.texels(quads);
-        Self { mesh: mesh.clone(), view, neighbours, shadow_depth, expected, frame }
+        Self { mesh: mesh.clone(), view, neighbours, fans, shadow_depth, expected, frame }
     }
 
     fn check(&self, gpu: &Gpu, run: &MapRun, source: SilhouetteSource) -> Outcome {
@@ -160,6 +173,7 @@ impl Case {
         let vertices = frame.draw_args[usize::from(source == SilhouetteSource::Stages)].vertex_count;
         let bytes = |name: &str| match name {
             "face_neighbours" => cast_slice(&self.neighbours),
+            "edge_fans" => cast_slice(&self.fans),
             _ => frame.bytes(name),
         };
         let floats = run.run(gpu, bytes, &self.shadow_depth, view.far_depth, vertices);

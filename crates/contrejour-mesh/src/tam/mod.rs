@@ -2,12 +2,13 @@
 //! neighbours, so that a face alone tells which of its edges are in the silhouette.
 
 mod encode;
+mod face_neighbours;
 mod memory;
 mod neighbours;
 
 pub use encode::{TamError, TamForm, TamPrecision};
+pub use face_neighbours::{edge_fans, face_neighbours};
 pub use memory::TamMemory;
-pub use neighbours::face_neighbours;
 
 use rayon::prelude::*;
 

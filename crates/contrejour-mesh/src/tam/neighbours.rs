@@ -1,11 +1,8 @@
 //! Which face is across an edge.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
-use contrejour_layout::{
-    ACROSS_ALONE, ACROSS_ALONG, ACROSS_NEVER, ACROSS_NOTHING, FaceNeighbours, INCIDENCE_ALONG, UNLIT_FACE, incidence,
-};
+use contrejour_layout::{INCIDENCE_ALONG, UNLIT_FACE, incidence};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -13,6 +10,7 @@ use crate::topology::repeats_a_vertex;
 use crate::{TopologyAwareMesh, incidence_words};
 
 /// Which words of an edge's are asked together, where it has more than two.
+#[derive(Default)]
 pub(super) struct Pairs(HashMap<(usize, u32), u32>);
 
 impl Pairs {
@@ -47,7 +45,7 @@ fn pairs(words: &[u32]) -> impl Iterator<Item = [u32; 2]> {
 
 /// What is across an edge of a face.
 #[derive(Clone, Copy)]
-enum Across {
+pub(super) enum Across {
     /// Nothing that matters: the edge is never in the silhouette.
     Never,
     /// Nothing, or a face without a sign of its own: the edge is always in the silhouette.
@@ -61,7 +59,7 @@ enum Across {
 }
 
 /// What is across the edge from a corner of a face with area to the next.
-fn across(mesh: &TopologyAwareMesh, face_id: u32, corner: usize, pairs: &Pairs) -> Across {
+pub(super) fn across(mesh: &TopologyAwareMesh, face_id: u32, corner: usize, pairs: &Pairs) -> Across {
     let [from, to] = edge_of_face(mesh, face_id, corner);
     let edge_id = mesh.edge_between(from.min(to), from.max(to));
     let Some(edge_id) = edge_id.filter(|edge_id| *edge_id < mesh.candidate_edge_count as usize) else {
@@ -75,7 +73,7 @@ fn across(mesh: &TopologyAwareMesh, face_id: u32, corner: usize, pairs: &Pairs) 
     }
 }
 
-fn edge_of_face(mesh: &TopologyAwareMesh, face_id: u32, corner: usize) -> [u32; 2] {
+pub(super) fn edge_of_face(mesh: &TopologyAwareMesh, face_id: u32, corner: usize) -> [u32; 2] {
     let face = mesh.faces[face_id as usize];
     let vertices = [face.a, face.b, face.c];
     [vertices[corner], vertices[(corner + 1) % 3]]
@@ -99,59 +97,6 @@ pub(super) fn neighbour_normals(
     found.iter().any(Option::is_some).then(|| found.map(stored))
 }
 
-/// What is across the edges of some faces, as a vertex stage asks it that knows the corners of all faces: the form of a
-/// topology-aware vertex stream that follows positions which deform. Faces without area have nothing to draw.
-pub fn face_neighbours(mesh: &TopologyAwareMesh, face_ids: Range<u32>) -> Vec<FaceNeighbours> {
-    let pairs = Pairs::new(mesh);
-    let has_area = has_area(mesh);
-    let word_across = |face_id, corner| match across(mesh, face_id, corner, &pairs) {
-        Across::Never => ACROSS_NEVER,
-        Across::Nothing => ACROSS_NOTHING,
-        // A face without area between takes the sign of the face here, or the opposite one.
-        Across::Face { id, along } if id == face_id => {
-            if along {
-                ACROSS_NOTHING
-            } else {
-                ACROSS_NEVER
-            }
-        }
-        Across::Face { id, along } => {
-            let edge = edge_of_face(mesh, face_id, corner);
-            let face = mesh.faces[id as usize];
-            // It is beyond a face without area, which draws nothing.
-            let lacks_edge = edge.iter().any(|vertex| ![face.a, face.b, face.c].contains(vertex));
-            let along_bit = if along { ACROSS_ALONG } else { 0 };
-            let alone_bit = if along || lacks_edge { ACROSS_ALONE } else { 0 };
-            opposite_vertex(mesh, edge, id) | along_bit | alone_bit
-        }
-    };
-    let neighbours = |face_id: u32| {
-        let [across_ab, across_bc, across_ca] = if has_area[face_id as usize] {
-            [0, 1, 2].map(|corner| word_across(face_id, corner))
-        } else {
-            [ACROSS_NEVER; 3]
-        };
-        FaceNeighbours { across_ab, across_bc, across_ca }
-    };
-    face_ids.into_par_iter().map(neighbours).collect()
-}
-
-/// The corner of a face that is farthest from an edge. The face is at the edge, or beyond faces without area that lie on it.
-fn opposite_vertex(mesh: &TopologyAwareMesh, [from, to]: [u32; 2], face_id: u32) -> u32 {
-    let face = mesh.faces[face_id as usize];
-    let vertices = [face.a, face.b, face.c];
-    let others: Vec<u32> = vertices.into_iter().filter(|vertex| *vertex != from && *vertex != to).collect();
-    if let [vertex] = others[..] {
-        return vertex;
-    }
-    let position = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
-    let origin = position(from);
-    let along = (position(to) - origin).normalize_or_zero();
-    let distance = |vertex: u32| along.cross(position(vertex) - origin).length();
-    let farther = |one: &&u32, other: &&u32| distance(**one).total_cmp(&distance(**other));
-    others.iter().max_by(farther).copied().unwrap_or(face.c)
-}
-
 /// Which faces have an area.
 pub(super) fn has_area(mesh: &TopologyAwareMesh) -> Vec<bool> {
     let mut has_area: Vec<bool> = mesh.faces.par_iter().map(|face| !repeats_a_vertex(face)).collect();
@@ -168,7 +113,7 @@ pub(super) fn overdrawn_edges(mesh: &TopologyAwareMesh) -> u32 {
     candidates.iter().filter(|edge| is_overdrawn(incidence_words(edge, &mesh.incidences))).count() as u32
 }
 
-fn is_along(word: u32) -> bool {
+pub(super) fn is_along(word: u32) -> bool {
     word & INCIDENCE_ALONG != 0
 }
 

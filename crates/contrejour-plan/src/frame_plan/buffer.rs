@@ -13,6 +13,8 @@ pub enum BufferKind {
     Faces,
     /// What is across the edges of the faces of all meshes.
     FaceNeighbours,
+    /// The faces around those edges of all meshes that have more than two, in words; as long as [`Incidences`](Self::Incidences).
+    EdgeFans,
     /// Planes of the faces of all meshes.
     Planes,
     /// Edges of all meshes that can be in a silhouette.
@@ -110,10 +112,11 @@ const BINDING_ALIGNMENT: u64 = 256;
 
 impl BufferKind {
     /// All buffers.
-    pub const ALL: [Self; 34] = [
+    pub const ALL: [Self; 35] = [
         Self::Positions,
         Self::Faces,
         Self::FaceNeighbours,
+        Self::EdgeFans,
         Self::Planes,
         Self::Edges,
         Self::Incidences,
@@ -153,6 +156,7 @@ impl BufferKind {
             Self::Positions => "positions",
             Self::Faces => "faces",
             Self::FaceNeighbours => "face_neighbours",
+            Self::EdgeFans => "edge_fans",
             Self::Planes => "planes",
             Self::Edges => "edges",
             Self::Incidences => "incidences",
@@ -226,6 +230,7 @@ impl BufferKind {
     pub const fn item_bytes(self) -> u64 {
         let bytes = match self {
             Self::Positions
+            | Self::EdgeFans
             | Self::Incidences
             | Self::VertexEdges
             | Self::MaskWords

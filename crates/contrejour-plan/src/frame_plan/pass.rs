@@ -93,7 +93,7 @@ impl Pass {
                 &[LightView, Quads, Casters, CasterLights, Positions, OutlineSides, VertexEdges, DrawArgs]
             }
             Self::SilhouetteMapTam | Self::BlendedSilhouetteMapTam => {
-                &[LightView, FaceItems, Casters, CasterLights, Faces, FaceNeighbours, Positions, DrawArgs]
+                &[LightView, FaceItems, Casters, CasterLights, Faces, FaceNeighbours, EdgeFans, Positions, DrawArgs]
             }
             Self::Visibility => &[ReceiverView],
         }

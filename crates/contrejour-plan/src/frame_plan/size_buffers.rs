@@ -150,7 +150,7 @@ impl PageSizes {
             BufferKind::Planes if self.lacks_planes => 0,
             BufferKind::Planes => self.pool_faces,
             BufferKind::Edges => self.pool_edges,
-            BufferKind::Incidences => self.incidence_words,
+            BufferKind::EdgeFans | BufferKind::Incidences => self.incidence_words,
             BufferKind::VertexEdges => self.vertex_edge_words,
             BufferKind::Casters => self.casters,
             // Masked ones lie at the back of as long a list.
