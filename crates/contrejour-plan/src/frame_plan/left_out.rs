@@ -38,7 +38,7 @@ pub enum Omitted {
     Pass(Pass),
     /// The work items of the caster of this name.
     CasterWork(String),
-    /// Silhouette and smoothies of the caster of this name.
+    /// Silhouette of the caster of this name, and all that is drawn from it.
     Silhouette(String),
     /// Topology and caster record of the mesh of this name.
     Topology(String),
@@ -144,7 +144,7 @@ impl fmt::Display for Omitted {
             Self::MaskedPasses => "masked passes",
             Self::Pass(pass) => return formatter.pad(&format!("pass {}", pass.name())),
             Self::CasterWork(name) => return formatter.pad(&format!("work of caster {name}")),
-            Self::Silhouette(name) => return formatter.pad(&format!("silhouette and smoothies of {name}")),
+            Self::Silhouette(name) => return formatter.pad(&format!("silhouette of {name}")),
             Self::Topology(name) => return formatter.pad(&format!("topology of {name}")),
             Self::InstanceTransforms => "instance transforms",
             Self::Deformation => "deformation",
