@@ -48,8 +48,8 @@ pub(crate) fn alpha_view(alpha: &[f32], size: u32) -> MapView {
     }
 }
 
-/// Signed distances to silhouettes, where one is near, as two colours.
-pub(crate) fn distance_view(distances: &[f32], is_near: &[bool], size: u32) -> MapView {
+/// Signed distances to silhouettes, where one is near, as two colours; as one where they do not tell sides.
+pub(crate) fn distance_view(distances: &[f32], is_near: &[bool], size: u32, has_sides: bool) -> MapView {
     let near = || distances.iter().zip(is_near).filter(|(_, is_near)| **is_near).map(|(distance, _)| distance.abs());
     let farthest = near().fold(0.0, f32::max);
     let picture = RgbaImage::from_fn(size, size, |x, y| {
@@ -63,9 +63,12 @@ pub(crate) fn distance_view(distances: &[f32], is_near: &[bool], size: u32) -> M
         })
     });
     let legend = if farthest > 0.0 {
-        format!(
-            "orange: inside a silhouette, blue: outside, bright at it, dark {farthest:.2} texels away; black: none is near"
-        )
+        let sides = if has_sides {
+            "orange: inside a silhouette, blue: outside"
+        } else {
+            "orange: on any side of a silhouette"
+        };
+        format!("{sides}, bright at it, dark {farthest:.2} texels away; black: none is near")
     } else {
         "black: no silhouette is near".to_owned()
     };
@@ -125,11 +128,13 @@ mod tests {
 
     #[test]
     fn distances_are_orange_inside_and_blue_outside() {
-        let view = distance_view(&[2.0, -1.0, 0.0, 0.0], &[true, true, true, false], 2);
+        let view = distance_view(&[2.0, -1.0, 0.0, 0.0], &[true, true, true, false], 2, true);
         let colors: Vec<[u8; 3]> = view.picture.pixels().map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
         assert_eq!(colors, [[64, 32, 0], [0, 79, 159], [0, 127, 255], [0, 0, 0]]);
         assert!(view.legend.contains("2.00 texels"), "{}", view.legend);
-        assert_eq!(distance_view(&[0.0], &[false], 1).legend, "black: no silhouette is near");
+        assert_eq!(distance_view(&[0.0], &[false], 1, true).legend, "black: no silhouette is near");
+        let blended = distance_view(&[2.0], &[true], 1, false);
+        assert!(blended.legend.starts_with("orange: on any side of a silhouette, bright"), "{}", blended.legend);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use contrejour_gpu::LightHandle;
 use contrejour_layout::SilhouetteEdge;
-use contrejour_plan::{DepthPrecision, LightKind, Pass, frame_views};
+use contrejour_plan::{DepthPrecision, LightKind, Pass, Stage, TextureKind, frame_views};
 use image::RgbaImage;
 
 use crate::error::DrawError;
@@ -50,11 +50,16 @@ impl Renderer {
                 legend: "white: the light is seen, black: it is hidden".to_owned(),
             });
             let edges: Vec<SilhouetteEdge> = found.iter().flat_map(|found| &found.silhouettes).copied().collect();
+            let looks = self.cast.shadows.plan(light.1).is_some_and(|plan| plan.has_stage(Stage::DetectSilhouette));
+            let legend = if looks {
+                "orange: outlines, blue: silhouette edges with faces on both sides; faint where hidden"
+            } else {
+                "no lines: no compute stage finds silhouettes for this technique"
+            };
             of_light.push(View {
                 name: "silhouette".to_owned(),
                 picture: self.silhouette_picture(&edges)?,
-                legend: "orange: outlines, blue: silhouette edges with faces on both sides; faint where hidden"
-                    .to_owned(),
+                legend: legend.to_owned(),
             });
             if self.lights.count() > 1 {
                 of_light.iter_mut().for_each(|view| view.name = format!("light-{}-{}", light.0 + 1, view.name));
@@ -124,7 +129,9 @@ impl Renderer {
             let depth = linear(channel(&texels, 0));
             push("silhouette_depth", depth_view(&depth, map.width()));
             let is_near: Vec<bool> = depth.iter().map(|&depth| depth < depths[1] as f32).collect();
-            push("signed_distance", distance_view(&channel(&texels, 1), &is_near, map.width()));
+            let plan = self.cast.shadows.plan(light.1);
+            let has_sides = plan.is_some_and(|plan| plan.texture(TextureKind::SilhouetteOrder).is_some());
+            push("signed_distance", distance_view(&channel(&texels, 1), &is_near, map.width(), has_sides));
         }
         Ok(views)
     }
