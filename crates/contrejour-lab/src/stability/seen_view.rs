@@ -27,17 +27,17 @@ pub(super) struct SeenView<'a> {
 }
 
 impl SeenView<'_> {
-    /// Faces and silhouettes, caster by caster.
+    /// Faces and silhouettes, caster by caster; nothing where the technique runs no stages that find them.
     pub fn compare_silhouettes(&self, row: &mut Row) {
         let Self { case, frame, twin, found, .. } = self;
+        let Some(found_lit) = &found.lit else { return };
         let (mut faces, mut wrong_f32, mut wrong, mut open) = (0, 0, 0, 0);
         for &index in &found.casting {
             let (mesh, light) = (&*self.meshes[index].topology, &frame.caster_lights[index]);
             let exact = FaceSigns::exact(mesh, light);
             // All casters have room for their bits, on the device too.
             let first_lit_word = frame.casters[index].first_lit_word as usize;
-            let mut lit = vec![&twin.lit[first_lit_word..]];
-            lit.extend(found.lit.as_ref().map(|lit| &lit[first_lit_word..]));
+            let lit = [&twin.lit, found_lit].map(|lit| &lit[first_lit_word..]);
             faces += mesh.faces.len() as u64;
             wrong_f32 += wrong_signs(&exact, &[&bare_lit(mesh, light)]);
             wrong += wrong_signs(&exact, &lit);
@@ -45,10 +45,7 @@ impl SeenView<'_> {
             let of_caster = |edges: &[SilhouetteEdge]| -> Vec<SilhouetteEdge> {
                 edges.iter().filter(|edge| edge.caster as usize == index).copied().collect()
             };
-            let mut lists = vec![of_caster(&twin.silhouettes)];
-            if found.lit.is_some() {
-                lists.push(of_caster(&found.silhouettes));
-            }
+            let lists = [&twin.silhouettes, &found.silhouettes].map(|list| of_caster(list));
             let source = &case.meshes[index];
             let expected = (mesh.faces.len() <= ORACLE_FACES_MAX).then(|| {
                 OracleTopology::new(&source.positions, &source.triangles)
@@ -163,6 +160,8 @@ mod tests {
         let view = CubeFace::PositiveX.index();
         let other = row(view, &as_twins(&made[CubeFace::NegativeX.index()]));
         assert!(other.gaps > Some(0) && other.faults() > 0, "{other:?}");
+        let none = row(view, &DeviceOutputs { lit: None, ..as_twins(&made[view]) });
+        assert_eq!((none.faces_tested, none.sign_errors, none.open_cycles), (None, None, None), "nothing was tested");
         let mut lost = as_twins(&made[view]);
         lost.silhouettes.pop();
         let lost = row(view, &lost);
