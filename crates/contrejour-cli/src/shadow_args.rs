@@ -2,8 +2,8 @@
 
 use clap::Args;
 use contrejour_plan::{
-    AlphaRemap, DepthPrecision, PRESETS, SettingsError, ShadowSettings, SilhouetteMapSettings, SmoothieBlend,
-    SmoothieWidth, Technique, UnknownTechnique,
+    AlphaRemap, DepthPrecision, PRESETS, SettingsError, ShadowSettings, SmoothieBlend, SmoothieWidth, Technique,
+    UnknownTechnique,
 };
 
 use contrejour_scene::Scene;
@@ -74,14 +74,8 @@ impl ShadowArguments {
             Some(name) => ShadowSettings::preset(name)?,
             None => scene,
         };
-        if let Some(name) = self.technique.as_ref().filter(|name| *name != settings.technique.name()) {
-            settings.technique = match (settings.technique, name.parse()?) {
-                // Two ways to the same map: what tunes the one tunes the other.
-                (Technique::SilhouetteMap(tuned), Technique::SilhouetteMap(named)) => {
-                    Technique::SilhouetteMap(SilhouetteMapSettings { source: named.source, ..tuned })
-                }
-                (_, named) => named,
-            };
+        if let Some(name) = &self.technique {
+            settings.technique = settings.technique.named(name)?;
         }
         settings.map_size = self.map_size.unwrap_or(settings.map_size);
         settings.depth_precision = self.depth_bits.unwrap_or(settings.depth_precision);
@@ -126,7 +120,7 @@ mod tests {
     use super::*;
     use crate::args::{Arguments, Command};
     use clap::Parser;
-    use contrejour_plan::{SilhouetteSource, SmoothieSettings};
+    use contrejour_plan::SmoothieSettings;
 
     fn shadow(line: &str) -> Result<ShadowSettings, ShadowArgumentError> {
         let arguments = Arguments::try_parse_from(line.split_whitespace()).map(|arguments| arguments.command);
@@ -152,16 +146,6 @@ mod tests {
         };
         let arguments = ShadowArguments { technique: Some("smoothies".into()), ..Default::default() };
         assert_eq!(arguments.applied_to(scene).expect("all is fine"), scene);
-    }
-
-    #[test]
-    fn both_sources_of_a_silhouette_map_are_tuned_alike() {
-        let tuned = SilhouetteMapSettings { samples: 3, ..Default::default() };
-        let scene = ShadowSettings { technique: Technique::SilhouetteMap(tuned), ..Default::default() };
-        let arguments = ShadowArguments { technique: Some("silhouette-map-tam".into()), ..Default::default() };
-        let applied = arguments.applied_to(scene).expect("all is fine");
-        let from_faces = SilhouetteMapSettings { source: SilhouetteSource::Faces, ..tuned };
-        assert_eq!(applied.technique, Technique::SilhouetteMap(from_faces));
     }
 
     #[test]

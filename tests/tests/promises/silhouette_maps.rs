@@ -17,7 +17,8 @@ use contrejour_gpu::ShadowOptions;
 use contrejour_layout::{LightView, UNLIT_FACE};
 use contrejour_mesh::incidence_words;
 use contrejour_plan::{
-    Light, LightKind, ShadowSettings, SilhouetteMapSettings, SilhouetteSource, Technique, View, ViewCounts, views,
+    EdgeProfile, Light, LightKind, ShadowSettings, SilhouetteMapSettings, SilhouetteSource, Technique, View,
+    ViewCounts, views,
 };
 use contrejour_tests::ask::{Point, visibility_at};
 use contrejour_tests::gpu::Gpu;
@@ -63,6 +64,7 @@ pub fn trials() -> Vec<Trial> {
     ));
     trials.push(cpu_trial("silhouette_maps::comparer_finds_planted_faults", comparer_finds_planted_faults));
     trials.push(gpu_trial("silhouette_maps::soft_edges_are_those_of_a_disk", soft_edges_are_those_of_a_disk));
+    trials.push(gpu_trial("silhouette_maps::even_edges_go_evenly", even_edges_go_evenly));
     trials.push(gpu_trial("silhouette_maps::a_thin_sheet_has_two_edges", a_thin_sheet_has_two_edges));
     trials.push(gpu_trial("silhouette_maps::a_shadow_within_another_has_no_edge", a_shadow_within_another_has_no_edge));
     trials.push(gpu_trial("silhouette_maps::a_lit_face_has_no_dark_rim", a_lit_face_has_no_dark_rim));
@@ -422,8 +424,18 @@ fn asked(
     samples: u32,
     fault: Option<Replaced>,
 ) -> Result<Vec<f64>, String> {
-    let mut settings = settings(SilhouetteSource::Stages, SHADING_MAP_SIZE);
-    settings.technique.set("samples", samples.into()).map_err(|error| error.to_string())?;
+    asked_by(gpu, mesh, points, SilhouetteMapSettings { samples, ..Default::default() }, fault)
+}
+
+fn asked_by(
+    gpu: &Gpu,
+    mesh: &TestMesh,
+    points: &[Point],
+    tuned: SilhouetteMapSettings,
+    fault: Option<Replaced>,
+) -> Result<Vec<f64>, String> {
+    let technique = Technique::SilhouetteMap(tuned);
+    let settings = ShadowSettings { technique, map_size: SHADING_MAP_SIZE, ..Default::default() };
     let mut pipeline = Pipeline::new(gpu, mesh, &ShadowOptions { settings, ..Default::default() })?;
     pipeline.complete_frame(&lamp())?;
     let found = visibility_at(gpu, &pipeline.shadows, pipeline.light(), points, fault);
@@ -487,6 +499,19 @@ fn soft_edges_are_those_of_a_disk(gpu: &Gpu) -> Outcome {
     )?;
     let found = check(16, SAMPLED_VISIBILITY_ERROR);
     each_is_found(found, &[("sqrt(1.0 - CONTREJOUR_SHARE * CONTREJOUR_SHARE)", "1.0 - CONTREJOUR_SHARE")])
+}
+
+fn even_edges_go_evenly(gpu: &Gpu) -> Outcome {
+    let mesh = sheets(&[SQUARE_SHEET, FLOOR], false);
+    let (points, places) = across_penumbra();
+    let even = SilhouetteMapSettings { samples: 1, profile: EdgeProfile::Linear, ..Default::default() };
+    let evenly = |index: usize| 0.5 + 0.5 * places[index].clamp(-1.0, 1.0);
+    let check = |tuned| expect_near(&asked_by(gpu, &mesh, &points, tuned, None)?, VISIBILITY_ERROR, evenly);
+    check(even)?;
+    match check(SilhouetteMapSettings { profile: EdgeProfile::Disk, ..even }) {
+        Ok(()) => Err("the edge of a disk goes evenly".into()),
+        Err(_) => Ok(()),
+    }
 }
 
 /// What is thinner than its penumbra leaves light on both sides, which several places see and one does not.

@@ -88,6 +88,24 @@ impl Technique {
     }
 }
 
+impl Technique {
+    /// The technique of a name: itself where that is its own, else with default settings. Both sources of a silhouette map
+    /// are tuned alike, so from one to the other its settings stay.
+    ///
+    /// # Errors
+    ///
+    /// There is no such technique.
+    pub fn named(self, name: &str) -> Result<Self, UnknownTechnique> {
+        Ok(match (self, name.parse()?) {
+            _ if name == self.name() => self,
+            (Self::SilhouetteMap(tuned), Self::SilhouetteMap(named)) => {
+                Self::SilhouetteMap(SilhouetteMapSettings { source: named.source, ..tuned })
+            }
+            (_, named) => named,
+        })
+    }
+}
+
 impl Default for Technique {
     fn default() -> Self {
         Self::Smoothies(SmoothieSettings::DEFAULT)
@@ -133,6 +151,17 @@ mod tests {
             let technique: Technique = name.parse().expect("listed");
             assert_eq!(technique.to_string(), name);
         }
+    }
+
+    #[test]
+    fn naming_keeps_settings_of_the_same_kind() {
+        let tuned = SilhouetteMapSettings { samples: 3, ..SilhouetteMapSettings::DEFAULT };
+        let from_faces = SilhouetteMapSettings { source: SilhouetteSource::Faces, ..tuned };
+        let named = |technique: Technique, name| technique.named(name).expect("listed");
+        assert_eq!(named(Technique::SilhouetteMap(tuned), "silhouette-map"), Technique::SilhouetteMap(tuned));
+        assert_eq!(named(Technique::SilhouetteMap(tuned), "silhouette-map-tam"), Technique::SilhouetteMap(from_faces));
+        assert_eq!(named(Technique::SilhouetteMap(tuned), "smoothies"), Technique::default());
+        assert!(Technique::Pcf.named("smoothie").is_err());
     }
 
     #[test]

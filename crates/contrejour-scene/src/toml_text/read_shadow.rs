@@ -48,10 +48,7 @@ pub(super) fn read_shadow(value: &Value<'_>, base: ShadowSettings) -> Result<Sha
     let technique = &mut settings.technique;
     if let Some(value) = section.get("technique") {
         let name = Technique::NAMES[value.name_of(&Technique::NAMES)?];
-        // The technique that there is keeps what is set.
-        if name != technique.name() {
-            *technique = name.parse().map_err(|_| value.refuse(unknown(technique, name)))?;
-        }
+        *technique = technique.named(name).map_err(|_| value.refuse(unknown(technique, name)))?;
     }
     for key in PARAMETERS {
         if let Some(value) = section.get(key) {
