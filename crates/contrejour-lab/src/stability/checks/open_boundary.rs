@@ -1,7 +1,8 @@
 //! Places where a blocker ends and no silhouette is near.
 
-/// Neighbouring texels, of which one shows a blocker and the other nothing, and of which one knows no silhouette within a
-/// texel of it. A blocker whose middle of a texel is covered ends before the next one's, so both are nearer than that.
+/// Neighbouring texels between which a blocker ends, of which one knows no silhouette within a texel of it. A blocker whose
+/// middle of a texel is covered ends before the next one's, so both are nearer than that. It ends where one of them shows it
+/// and the other shows nothing, or something that is farther by a [`STEP`](STEP_SLOPES).
 ///
 /// Depths are those of the shadow map, `far_depth` where nothing is; silhouettes are depth, as far where none is near, and
 /// signed distance in texels. Row by row.
@@ -11,12 +12,32 @@ pub(in super::super) fn open_boundary(depths: &[f32], silhouettes: &[[f32; 2]], 
         let [depth, distance] = silhouettes[texel];
         depth < far_depth && distance.abs() <= 1.0 + ROUNDING_TEXELS
     };
-    let is_open =
-        |&(one, other): &(usize, usize)| shows_blocker(one) != shows_blocker(other) && !(knows(one) && knows(other));
-    let across = (0..depths.len()).filter(|texel| (texel + 1) % side != 0).map(|texel| (texel, texel + 1));
-    let down = (side..depths.len()).map(|texel| (texel - side, texel));
-    across.chain(down).filter(is_open).count() as u64
+    let is_step = |texels: Option<[usize; 4]>| {
+        let Some(texels) = texels.filter(|texels| texels.iter().all(|&texel| shows_blocker(texel))) else {
+            return false;
+        };
+        let [before, jump, after] = [0, 1, 2].map(|pair| (depths[texels[pair + 1]] - depths[texels[pair]]).abs());
+        jump > STEP_SLOPES * before.max(after) && jump > STEP_SHARE * far_depth
+    };
+    // From texel to texel along rows, then along columns.
+    let count = |stride: usize, length: usize| {
+        let is_open = |texel: &usize| {
+            let (one, other) = (*texel, texel + stride);
+            let place = one / stride % length;
+            let around = (place > 0 && place + 2 < length).then(|| [one - stride, one, other, other + stride]);
+            let ends = shows_blocker(one) != shows_blocker(other) || is_step(around);
+            ends && !(knows(one) && knows(other))
+        };
+        (0..depths.len()).filter(|texel| texel / stride % length + 1 < length).filter(is_open).count() as u64
+    };
+    count(1, side) + count(side, depths.len() / side)
 }
+
+/// A step between two texels is so many times as high as those beside it, which the slope of a face explains.
+const STEP_SLOPES: f32 = 8.0;
+
+/// And so high at least, of the farthest depth: a face of a curved surface that is seen edge-on within a texel is lower.
+const STEP_SHARE: f32 = 0.1;
 
 /// Rasterisers take a middle that lies on an edge for either side, and round corners: to 1/256 texel most, some to 1/16.
 const ROUNDING_TEXELS: f32 = 0.1;
@@ -30,6 +51,17 @@ mod tests {
         let depths = std::array::from_fn(|texel| if texel % 4 < 2 { 2.0 } else { 9.0 });
         let silhouettes = std::array::from_fn(|texel| [2.0, 1.5 - (texel % 4) as f32]);
         (depths, silhouettes)
+    }
+
+    #[test]
+    fn a_blocker_ends_before_another_too() {
+        let (mut depths, good) = half();
+        depths.iter_mut().for_each(|depth| *depth = depth.min(8.0));
+        assert_eq!(open_boundary(&depths, &good, 4, 9.0), 0);
+        assert_eq!(open_boundary(&depths, &[[9.0, 0.0]; 8], 4, 9.0), 2);
+        // A face that is seen at a slant.
+        let slanted = std::array::from_fn::<f32, 8, _>(|texel| 2.0 + (texel % 4) as f32);
+        assert_eq!(open_boundary(&slanted, &[[9.0, 0.0]; 8], 4, 9.0), 0);
     }
 
     #[test]

@@ -26,7 +26,7 @@ fn cases(effort: &Effort) -> Vec<Case> {
                 case.explain_error(
                     0.3,
                     "the gap is less than the depth bias, within which the map can't tell the blocker from its \
-                     receiver: no smoothie is kept, and the shadow begins later",
+                     receiver: no smoothie and no silhouette is kept, and the shadow begins later",
                 );
             }
             case

@@ -5,20 +5,22 @@ use contrejour_plan::{SilhouetteMapSettings, Technique};
 use super::super::case::Case;
 use super::super::effort::Effort;
 use super::super::family::Family;
-use super::{counts, projections, shapes};
+use super::{contact, counts, projections, shapes};
 use crate::report::Scale;
 
 pub(super) const SILHOUETTE_MAPS: Family = Family {
     name: "silhouette-maps",
-    stresses: "Slivers, edges that project to a point, faces seen edge-on and faces of a texel, in silhouette maps of both \
-               sources: each place where a blocker ends must know its silhouette.",
+    stresses: "Slivers, edges that project to a point, faces seen edge-on, faces of a texel and a plate that sinks onto a \
+               floor, in silhouette maps of both sources: each place where a blocker ends, before nothing or before \
+               another, must know its silhouette.",
     parameter: "the case's number",
     scale: Scale::Linear,
     cases,
 };
 
 /// Whose cases are tried.
-const FAMILIES: [Family; 4] = [shapes::SLIVERS, projections::POINT_EDGES, counts::EDGE_ON, counts::TEXEL_FACES];
+const FAMILIES: [Family; 5] =
+    [shapes::SLIVERS, projections::POINT_EDGES, counts::EDGE_ON, counts::TEXEL_FACES, contact::CONTACT];
 
 fn cases(effort: &Effort) -> Vec<Case> {
     let both = [("stages", SilhouetteMapSettings::DEFAULT), ("vertex stage", SilhouetteMapSettings::TAM)];
