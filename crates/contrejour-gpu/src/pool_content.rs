@@ -1,7 +1,7 @@
 //! What of a mesh lies in each pool. Each is written with `write(byte offset, bytes)`.
 
 use contrejour_layout::{BLOCK_SIZE, Edge, Face, FaceNeighbours, VertexEdge};
-use contrejour_mesh::{FacePlanes, edge_fans, face_neighbours};
+use contrejour_mesh::{FacePlanes, edge_fans, face_neighbours, face_neighbours_in_pairs};
 use contrejour_plan::{BufferKind, MeshPiece};
 
 use crate::pieces::vertex_edges_of_piece;
@@ -42,6 +42,7 @@ impl MeshPool {
         let PlacedPiece { slot, piece, place } = placed;
         let Some(pooled) = self.meshes.at(*slot) else { return };
         let mesh = &*pooled.topology;
+        let is_whole = *piece == MeshPiece::whole(piece.mesh, &pooled.facts);
         match kind {
             BufferKind::Faces => {
                 let faces = &mesh.faces[piece.first_face as usize..][..piece.faces as usize];
@@ -50,13 +51,16 @@ impl MeshPool {
             // No vertex stage asks masked faces.
             BufferKind::FaceNeighbours | BufferKind::EdgeFans if pooled.is_masked() => {}
             BufferKind::FaceNeighbours => {
-                let first = piece.first_face;
-                let neighbours = face_neighbours(mesh, first..first + piece.faces);
+                let neighbours = if is_whole {
+                    face_neighbours(mesh)
+                } else {
+                    face_neighbours_in_pairs(mesh, piece.first_face..piece.first_face + piece.faces)
+                };
                 let offset = size_of::<FaceNeighbours>() as u64 * u64::from(place.face);
                 write(offset, bytemuck::cast_slice(&neighbours));
             }
             // Faces around an edge may be in several pieces, so there they are asked in pairs.
-            BufferKind::EdgeFans if *piece != MeshPiece::whole(piece.mesh, &pooled.facts) => {}
+            BufferKind::EdgeFans if !is_whole => {}
             BufferKind::EdgeFans => write(4 * u64::from(place.incidence), bytemuck::cast_slice(&edge_fans(mesh))),
             BufferKind::Edges => {
                 let edges = &mesh.edges[piece.first_edge as usize..][..piece.edges() as usize];
@@ -72,7 +76,7 @@ impl MeshPool {
                     write(4 * u64::from(place.vertex_offset_word), bytemuck::cast_slice(offsets));
                     write(4 * u64::from(place.vertex_edge_word), bytemuck::cast_slice(lists));
                 };
-                if *piece == MeshPiece::whole(piece.mesh, &pooled.facts) {
+                if is_whole {
                     put(&mesh.vertex_edge_offsets, &mesh.vertex_edges);
                 } else {
                     let (offsets, lists) = vertex_edges_of_piece(mesh, piece);
@@ -81,5 +85,39 @@ impl MeshPool {
             }
             _ => {}
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use contrejour_layout::{ACROSS_ALONE, ACROSS_ALONG, ACROSS_FAN, ACROSS_NEVER};
+    use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
+    use contrejour_plan::DeviceFacts;
+
+    use super::*;
+    use crate::pool::PiecePlace;
+
+    #[test]
+    fn a_piece_without_all_edges_has_no_fans_and_asks_none() {
+        let positions = [[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.5, 0.0], [0.0, 0.5, 1.0], [-1.0, 0.5, 0.0]];
+        let pages = [[0, 1, 2], [1, 0, 3], [0, 1, 4]];
+        let mesh = TopologyAwareMesh::build(&positions, &pages, &BuildOptions::default()).expect("a good mesh");
+        let mut pool = MeshPool::default();
+        pool.add(Arc::new(mesh), &DeviceFacts::default()).expect("it fits");
+        let whole = MeshPiece::whole(0, &pool.facts().0[0]);
+        // All faces fit the page, and of the edges a part.
+        let cut = MeshPiece { other_edges: 1, ..whole };
+        let words = |kind, piece| {
+            let mut words: Vec<u32> = Vec::new();
+            let placed = PlacedPiece { slot: 0, piece, place: PiecePlace::default() };
+            pool.write_piece(kind, &placed, |_, bytes| words.extend(bytemuck::pod_collect_to_vec::<u8, u32>(bytes)));
+            words
+        };
+        let is_fan = |word: &u32| *word < ACROSS_NEVER && word & (ACROSS_ALONG | ACROSS_ALONE) == ACROSS_FAN;
+        let asking = |piece| words(BufferKind::FaceNeighbours, piece).iter().filter(|word| is_fan(word)).count();
+        assert_eq!((asking(whole), words(BufferKind::EdgeFans, whole).len()), (1, 4));
+        assert_eq!((asking(cut), words(BufferKind::EdgeFans, cut).len()), (0, 0));
     }
 }

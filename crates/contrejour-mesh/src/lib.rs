@@ -21,7 +21,10 @@ pub use rig::{
     AnimatedModel, Animation, DeformingMesh, DeformingMeshError, NodeTransform, PartPose, Pose, PoseError, Rig,
     RigNode, RigPart, Skin, UnknownAnimation,
 };
-pub use tam::{TamError, TamFace, TamForm, TamMemory, TamOptions, TamPrecision, TamStream, edge_fans, face_neighbours};
+pub use tam::{
+    TamError, TamFace, TamForm, TamMemory, TamOptions, TamPrecision, TamStream, edge_fans, face_neighbours,
+    face_neighbours_in_pairs,
+};
 pub use texture::{EncodedImage, Texture, TextureFilter, TextureWrap};
 pub use topology::*;
 pub use triangle_mesh::*;

@@ -159,8 +159,8 @@ impl Case {
         chain.run(&mut frame);
         // As the faces lie: each part's behind a gap.
         let gap = FaceNeighbours { across_ab: u32::MAX, across_bc: u32::MAX, across_ca: u32::MAX };
-        let of_part = |part: &meshes::TestPart| face_neighbours(&part.topology, 0..part.topology.faces.len() as u32);
-        let neighbours = mesh.parts.iter().flat_map(|part| [vec![gap], of_part(part)].concat()).collect();
+        let neighbours =
+            mesh.parts.iter().flat_map(|part| [vec![gap], face_neighbours(&part.topology)].concat()).collect();
         let fans = mesh.parts.iter().flat_map(|part| [GAP.to_vec(), edge_fans(&part.topology)].concat()).collect();
         let quads = &frame.quads[..frame.counts().quads as usize];
         let shadow_depth = hiding_half(quads.iter().map(|quad| depth_of_q(&frame, quad.q[0])).collect(), &view);

@@ -14,21 +14,33 @@ use rayon::prelude::*;
 use super::neighbours::{Across, Pairs, across, edge_of_face, has_area, is_along};
 use crate::{TopologyAwareMesh, incidence_words};
 
-/// What is across the edges of some faces. Faces without area have nothing to draw.
-///
-/// Of all faces of a mesh one at each edge of more than two asks the edge's [fan](edge_fans). Of a part of them each asks
-/// another one there, pair by pair, and where several pairs are in the silhouette they may all draw the edge.
-pub fn face_neighbours(mesh: &TopologyAwareMesh, face_ids: Range<u32>) -> Vec<FaceNeighbours> {
+/// What is across the edges of all faces. Faces without area have nothing to draw, and one face at each edge of more than two
+/// asks the edge's [fan](edge_fans).
+pub fn face_neighbours(mesh: &TopologyAwareMesh) -> Vec<FaceNeighbours> {
     let has_area = has_area(mesh);
-    let has_fans = face_ids.len() == mesh.faces.len();
-    let (pairs, drawers) =
-        if has_fans { (Pairs::default(), fan_drawers(mesh, &has_area)) } else { (Pairs::new(mesh), HashMap::new()) };
+    asking(mesh, 0..mesh.faces.len() as u32, &has_area, &Pairs::default(), &fans(mesh, &has_area))
+}
+
+/// What is across the edges of some faces, for whoever has no [fans](edge_fans): at an edge of more than two each face asks
+/// another one, pair by pair, and where several pairs are in the silhouette they may all draw the edge.
+pub fn face_neighbours_in_pairs(mesh: &TopologyAwareMesh, face_ids: Range<u32>) -> Vec<FaceNeighbours> {
+    asking(mesh, face_ids, &has_area(mesh), &Pairs::new(mesh), &HashMap::new())
+}
+
+/// What is across the edges of some faces: the fan of an edge that has one here, else the face of its pair.
+fn asking(
+    mesh: &TopologyAwareMesh,
+    face_ids: Range<u32>,
+    has_area: &[bool],
+    pairs: &Pairs,
+    fans: &HashMap<[u32; 2], Fan>,
+) -> Vec<FaceNeighbours> {
     let word_across = |face_id, corner| {
         let [from, to] = edge_of_face(mesh, face_id, corner);
-        if let Some(fan) = drawers.get(&[from.min(to), from.max(to)]) {
+        if let Some(fan) = fans.get(&[from.min(to), from.max(to)]) {
             return if fan.drawer == Some(face_id) { ACROSS_FAN | fan.offset } else { ACROSS_NEVER };
         }
-        word_of(mesh, face_id, [from, to], across(mesh, face_id, corner, &pairs))
+        word_of(mesh, face_id, [from, to], across(mesh, face_id, corner, pairs))
     };
     let neighbours = |face_id: u32| {
         let [across_ab, across_bc, across_ca] = if has_area[face_id as usize] {
@@ -88,7 +100,7 @@ struct Fan {
 }
 
 /// The fan of each edge that has one, by its vertices.
-fn fan_drawers(mesh: &TopologyAwareMesh, has_area: &[bool]) -> HashMap<[u32; 2], Fan> {
+fn fans(mesh: &TopologyAwareMesh, has_area: &[bool]) -> HashMap<[u32; 2], Fan> {
     let fan = |edge: &Edge| {
         let vertices = [edge.low_vertex, edge.high_vertex];
         let mut faces = incidence_words(edge, &mesh.incidences).iter().map(|word| word >> 1);
@@ -133,7 +145,7 @@ mod tests {
 
     #[test]
     fn one_face_draws_an_edge_of_many() {
-        let found = face_neighbours(&book(), 0..4);
+        let found = face_neighbours(&book());
         let at_spine: Vec<u32> = found.iter().map(|neighbours| neighbours.across_ab).collect();
         assert_eq!(at_spine, [ACROSS_NEVER, ACROSS_FAN, ACROSS_NEVER, ACROSS_NEVER]);
         let others = found[1..].iter().flat_map(|neighbours| [neighbours.across_bc, neighbours.across_ca]);
@@ -149,7 +161,7 @@ mod tests {
 
     #[test]
     fn a_part_of_a_mesh_is_asked_in_pairs() {
-        let found = face_neighbours(&book(), 1..3);
+        let found = face_neighbours_in_pairs(&book(), 1..3);
         assert_eq!(found[0].across_ab, 3);
         assert_eq!(found[1].across_ab, 2);
     }

@@ -7,7 +7,7 @@ mod memory;
 mod neighbours;
 
 pub use encode::{TamError, TamForm, TamPrecision};
-pub use face_neighbours::{edge_fans, face_neighbours};
+pub use face_neighbours::{edge_fans, face_neighbours, face_neighbours_in_pairs};
 pub use memory::TamMemory;
 
 use rayon::prelude::*;

@@ -144,7 +144,7 @@ fn check(positions: &[[f32; 3]], triangles: &[[u32; 3]]) {
     for motion in [Motion::Rigid, Motion::Deforming] {
         let mesh = mesh(positions, triangles, motion);
         let stream = stream(&mesh);
-        let neighbours = face_neighbours(&mesh, 0..mesh.faces.len() as u32);
+        let neighbours = face_neighbours(&mesh);
         for light in lights() {
             let defined = by_definition(&mesh, light);
             assert_eq!(said_by_faces(&stream, light), defined, "{motion:?}, light at {light}");
@@ -173,7 +173,7 @@ fn faces_say_what_the_definition_says() {
 #[test]
 fn one_of_two_faces_draws_an_edge() {
     let mesh = mesh(&CUBE, &CUBE_FACES, Motion::Rigid);
-    let mut neighbours = face_neighbours(&mesh, 0..12);
+    let mut neighbours = face_neighbours(&mesh);
     let light = DVec3::new(3.0, 0.4, 0.6);
     assert_eq!(drawn_by_indices(&mesh, &neighbours, light), by_definition(&mesh, light), "each once");
     neighbours[8].across_ab = ACROSS_NEVER;
