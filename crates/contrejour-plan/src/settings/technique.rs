@@ -86,9 +86,7 @@ impl Technique {
             Self::SilhouetteMap(SilhouetteMapSettings { source: SilhouetteSource::Faces, .. }) => "silhouette-map-tam",
         }
     }
-}
 
-impl Technique {
     /// The technique of a name: itself where that is its own, else with default settings. Both sources of a silhouette map
     /// are tuned alike, so from one to the other its settings stay.
     ///
