@@ -70,7 +70,7 @@ fn vertex_silhouette_face(@builtin(vertex_index) index: u32) -> SilhouetteVertex
         let runs_up = ids[i] < ids[j];
         var is_outline = across[i] == ACROSS_NOTHING;
         var blocker_left = is_lit == runs_up;
-        if across[i] < ACROSS_NEVER && (across[i] & (ACROSS_ALONG | ACROSS_ALONE)) == ACROSS_FAN {
+        if (across[i] & (ACROSS_ALONG | ACROSS_ALONE)) == ACROSS_FAN {
             let ends = vec2u(min(ids[i], ids[j]), max(ids[i], ids[j]));
             let sides = sides_of_fan(caster, clip_from_object, ends, across[i] & ~ACROSS_FAN);
             is_outline = sides.x == 0u || sides.y == 0u;

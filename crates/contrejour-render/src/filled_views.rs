@@ -10,6 +10,7 @@ use crate::readback::{ReadError, copied_buffer};
 use crate::renderer::Renderer;
 use crate::shaders::COUNTED_TRIANGLES;
 use crate::silhouettes::read_pages;
+use crate::targets::target_texture;
 
 /// What a view of a light made.
 #[derive(Debug)]
@@ -121,16 +122,7 @@ fn count_triangles(
     (pass, size): (Pass, u32),
     counted: &wgpu::ShaderModule,
 ) -> wgpu::Texture {
-    let counts = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("counted triangles"),
-        size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: COUNT_FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
+    let counts = target_texture(gpu, "counted triangles", [size; 2], 1, COUNT_FORMAT, wgpu::TextureUsages::COPY_SRC);
     let target = counts.create_view(&wgpu::TextureViewDescriptor::default());
     let mut into = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("counted triangles"),
