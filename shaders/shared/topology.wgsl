@@ -10,12 +10,15 @@ const ACROSS_FAN = 0x80000000u;
 const FAN_UNLIT = 0x3fffffffu;
 const ACROSS_ALONG = 0x80000000u;
 const ACROSS_ALONE = 0x40000000u;
+const STREAM_FACE_WORDS = 18u;
+const HALF_STREAM_FACE_WORDS = 9u;
 const BLOCK_SIZE = 64u;
 const FACES_PER_WORD = 32u;
 const LIT_WORDS_PER_BLOCK = 2u;
 const OUTLINE_WORDS_PER_BLOCK = 4u;
 const BLOCK_BY_PLANES = 0u;
 const BLOCK_MASKED = 2u;
+const BLOCK_OF_CALLER = 3u;
 
 struct Face {
     a: u32,

@@ -1,8 +1,8 @@
 //! Records of casters and lists of their blocks, as they lie on the device.
 
 use contrejour_layout::{
-    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_MASKED, BLOCK_SIZE, Caster, LIT_WORDS_PER_BLOCK, NO_CASTER,
-    OUTLINE_WORDS_PER_BLOCK, WorkItem,
+    BLOCK_BY_PLANES, BLOCK_BY_POSITIONS, BLOCK_MASKED, BLOCK_OF_CALLER, BLOCK_SIZE, Caster, LIT_WORDS_PER_BLOCK,
+    NO_CASTER, OUTLINE_WORDS_PER_BLOCK, WorkItem,
 };
 use contrejour_plan::PagePlan;
 
@@ -114,7 +114,8 @@ impl CasterTable {
         let mesh = meshes.get(caster.mesh);
         let kind = |block: u32| match mesh {
             Some(mesh) if mesh.is_masked() => BLOCK_MASKED,
-            Some(mesh) if caster.live.is_none() && mesh.has_planes(block) => BLOCK_BY_PLANES,
+            _ if caster.live.is_some() => BLOCK_OF_CALLER,
+            Some(mesh) if mesh.has_planes(block) => BLOCK_BY_PLANES,
             _ => BLOCK_BY_POSITIONS,
         };
         let blocks = |first: u32, count: u32| {

@@ -176,7 +176,11 @@ impl MeshPool {
     pub fn used(&self, kind: BufferKind) -> Option<u64> {
         let index = match kind {
             BufferKind::Positions => POSITIONS,
-            BufferKind::Faces | BufferKind::FaceNeighbours | BufferKind::Planes => 1,
+            BufferKind::Faces
+            | BufferKind::FaceNeighbours
+            | BufferKind::StreamFaces
+            | BufferKind::HalfStreamFaces
+            | BufferKind::Planes => 1,
             BufferKind::Edges => 2,
             BufferKind::EdgeFans | BufferKind::Incidences => 3,
             BufferKind::VertexEdges => 4,

@@ -1,17 +1,21 @@
 //! What of a mesh lies in each pool. Each is written with `write(byte offset, bytes)`.
 
 use contrejour_layout::{BLOCK_SIZE, Edge, Face, FaceNeighbours, VertexEdge};
-use contrejour_mesh::{FacePlanes, edge_fans, face_neighbours, face_neighbours_in_pairs};
-use contrejour_plan::{BufferKind, MeshPiece};
+use contrejour_mesh::{
+    FacePlanes, TamOptions, TamPrecision, TamStream, edge_fans, face_neighbours, face_neighbours_in_pairs,
+};
+use contrejour_plan::{BufferKind, MeshPiece, NearOne};
 
 use crate::pieces::vertex_edges_of_piece;
 use crate::pool::{MeshPool, PlacedPiece};
 
 /// The pools that meshes fill page by page, but for planes.
-pub(crate) const MESH_POOLS: [BufferKind; 6] = [
+pub(crate) const MESH_POOLS: [BufferKind; 8] = [
     BufferKind::Faces,
     BufferKind::FaceNeighbours,
     BufferKind::EdgeFans,
+    BufferKind::StreamFaces,
+    BufferKind::HalfStreamFaces,
     BufferKind::Edges,
     BufferKind::Incidences,
     BufferKind::VertexEdges,
@@ -49,7 +53,11 @@ impl MeshPool {
                 write(size_of::<Face>() as u64 * u64::from(place.face), bytemuck::cast_slice(faces));
             }
             // No vertex stage asks masked faces.
-            BufferKind::FaceNeighbours | BufferKind::EdgeFans if pooled.is_masked() => {}
+            BufferKind::FaceNeighbours
+            | BufferKind::EdgeFans
+            | BufferKind::StreamFaces
+            | BufferKind::HalfStreamFaces
+                if pooled.is_masked() => {}
             BufferKind::FaceNeighbours => {
                 let neighbours = if is_whole {
                     face_neighbours(mesh)
@@ -62,6 +70,16 @@ impl MeshPool {
             // Faces around an edge may be in several pieces, so there they are asked in pairs.
             BufferKind::EdgeFans if !is_whole => {}
             BufferKind::EdgeFans => write(4 * u64::from(place.incidence), bytemuck::cast_slice(&edge_fans(mesh))),
+            BufferKind::StreamFaces | BufferKind::HalfStreamFaces => {
+                let precision = if kind == BufferKind::StreamFaces { TamPrecision::Full } else { TamPrecision::Half };
+                // As the matrices expect positions: near 1, so halves hold them.
+                let NearOne { origin, scale } = pooled.near_one;
+                let stream = TamStream::new(mesh, &TamOptions { origin, scale });
+                let faces = piece.first_face..piece.first_face + piece.faces;
+                if let Ok(records) = stream.records_in_place(faces, precision) {
+                    write(kind.item_bytes() * u64::from(place.face), &records);
+                }
+            }
             BufferKind::Edges => {
                 let edges = &mesh.edges[piece.first_edge as usize..][..piece.edges() as usize];
                 write(size_of::<Edge>() as u64 * u64::from(place.edge), bytemuck::cast_slice(edges));

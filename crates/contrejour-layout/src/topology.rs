@@ -48,6 +48,13 @@ pub const ACROSS_ALONG: u32 = 1 << 31;
 /// Bit of a word of [`FaceNeighbours`]: the face across may not draw the edge, so this one does also where it is unlit.
 pub const ACROSS_ALONE: u32 = 1 << 30;
 
+/// Words of one face of a topology-aware stream: three corners and the normals across the edges from each to the next, as
+/// 32-bit floats.
+pub const STREAM_FACE_WORDS: u32 = 18;
+
+/// The same as 16-bit floats, two to a word, the first one low.
+pub const HALF_STREAM_FACE_WORDS: u32 = 9;
+
 shared_struct! {
     /// One edge and the faces at it.
     ///
@@ -179,8 +186,8 @@ shared_struct! {
         caster: u32,
         /// Which block of its faces or edges.
         block: u32,
-        /// What is done with a block of faces: [`BLOCK_BY_PLANES`], [`BLOCK_BY_POSITIONS`] or [`BLOCK_MASKED`]. 0 for
-        /// edges.
+        /// What is done with a block of faces: [`BLOCK_BY_PLANES`], [`BLOCK_BY_POSITIONS`], [`BLOCK_MASKED`] or
+        /// [`BLOCK_OF_CALLER`]. 0 for edges.
         kind: u32,
     }
 }
@@ -188,11 +195,14 @@ shared_struct! {
 /// Its faces are tested by their stored planes.
 pub const BLOCK_BY_PLANES: u32 = 0;
 
-/// Its faces are tested by their positions: these are the caller's, or a plane does not fit into floats.
+/// Its faces are tested by their positions, since a plane does not fit into floats.
 pub const BLOCK_BY_POSITIONS: u32 = 1;
 
 /// Its faces have a mask: they are drawn into the shadow map and no stage tests them.
 pub const BLOCK_MASKED: u32 = 2;
+
+/// Its faces are tested by their positions, which are the caller's: nothing that is stored of the mesh's own tells of them.
+pub const BLOCK_OF_CALLER: u32 = 3;
 
 /// The caster of a block that is nobody's: a caster left it, and none has come to its place. No stage lists it.
 pub const NO_CASTER: u32 = u32::MAX;

@@ -139,8 +139,8 @@ impl Renderer {
     /// The triangles that were drawn to fill a silhouette map.
     fn triangle_view(&self, triangles: &CountedTriangles) -> Result<View, ReadError> {
         let (name, what) = match triangles.pass {
-            Pass::SilhouetteMapTam | Pass::BlendedSilhouetteMapTam => ("scaled_faces", "scaled faces"),
-            _ => ("strips", "strips along silhouette edges"),
+            Pass::SilhouetteMap | Pass::BlendedSilhouetteMap => ("strips", "strips along silhouette edges"),
+            _ => ("scaled_faces", "scaled faces"),
         };
         let counts = read_texels(&self.gpu, &triangles.counts, 0)?;
         let counts: Vec<f32> = counts.into_iter().map(|[count, _]| count).collect();

@@ -1,21 +1,23 @@
 //! The passes that fill silhouette maps, each alone over a shadow map that hides a part of the silhouettes, are as the
 //! definition says, in views of all kinds of light; and with a fault in their text they are not.
 
-use std::collections::HashSet;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use bytemuck::cast_slice;
 use contrejour_gpu::passes::{self, MapPass};
-use contrejour_layout::FaceNeighbours;
-use contrejour_mesh::{edge_fans, face_neighbours};
-use contrejour_plan::{Pass, SilhouetteSource, View, views};
+use contrejour_layout::{Caster, FaceNeighbours};
+use contrejour_mesh::{
+    BuildOptions, TamForm, TamOptions, TamPrecision, TamStream, TopologyAwareMesh, edge_fans, face_neighbours,
+};
+use contrejour_plan::{NearOne, Pass, SilhouetteSource, StreamPrecision, View, views};
 use contrejour_tests::chain::Chain;
 use contrejour_tests::frame::{Frame, GAP};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
 use contrejour_tests::lights::{cascades, lamps, lights, widened};
 use contrejour_tests::map_run::MapRun;
-use contrejour_tests::meshes::{self, TestMesh};
+use contrejour_tests::meshes::{self, TestMesh, TestPart};
 use contrejour_tests::planted::{Replaced, check_each_is_found};
 use contrejour_tests::silhouette_texels::{Definition, Expected};
 use glam::DVec3;
@@ -24,6 +26,9 @@ use libtest_mimic::Trial;
 use crate::silhouette_maps::{Counts, compare, map_of, near_doubtful_edges, settings};
 
 const MAP_SIZE: u32 = 128;
+
+const STREAM: SilhouetteSource = SilhouetteSource::Stream(StreamPrecision::Bits32);
+const HALF_STREAM: SilhouetteSource = SilhouetteSource::Stream(StreamPrecision::Bits16);
 
 pub fn trials() -> Vec<Trial> {
     vec![
@@ -36,6 +41,12 @@ pub fn trials() -> Vec<Trial> {
         }),
         gpu_trial("silhouette_passes::faults_of_the_one_from_faces_are_found", |gpu| {
             faults_are_found(gpu, SilhouetteSource::Faces, &[FAULTS, FAULTS_FROM_FACES].concat())
+        }),
+        gpu_trial("silhouette_passes::faults_of_the_one_from_a_stream_are_found", |gpu| {
+            faults_are_found(gpu, STREAM, &[FAULTS, FAULTS_FROM_A_STREAM].concat())
+        }),
+        gpu_trial("silhouette_passes::faults_of_the_one_from_halves_are_found", |gpu| {
+            faults_are_found(gpu, HALF_STREAM, FAULTS_FROM_HALVES)
         }),
     ]
 }
@@ -68,6 +79,23 @@ const FAULTS_FROM_FACES: &[Replaced] = &[
     ("point.order < (*nearest).order", "false"),
 ];
 
+const FAULTS_FROM_A_STREAM: &[Replaced] = &[
+    ("is_lit != faces_light(clip_from_object, image_from_normal, corners[i], across)", "is_lit"),
+    ("length_squared < 0.5 || ", ""),
+    ("corners[0], normal)", "corners[0], -normal)"),
+    ("let across = vectors[3u + i];", "let across = vectors[3u + (i + 1u) % 3u];"),
+    ("cross(near[1], near[2]), cross(near[2], near[0])", "cross(near[2], near[0]), cross(near[1], near[2])"),
+    ("is_lit == runs_up);", "is_lit);"),
+    ("(inradius + reach) / inradius", "(inradius + 0.5 * reach) / inradius"),
+    ("3u * i;", "3u * (i ^ 1u);"),
+];
+
+const FAULTS_FROM_HALVES: &[Replaced] = &[
+    ("HALF_STREAM_FACE_WORDS * index + 3u * pair", "STREAM_FACE_WORDS * index + 3u * pair"),
+    ("vec3f(first, middle.x)", "vec3f(first, middle.y)"),
+    ("vec3f(middle.y, last)", "vec3f(last, middle.y)"),
+];
+
 /// A mesh under a light, ready to be drawn, and what is to be drawn.
 struct Case {
     mesh: TestMesh,
@@ -75,13 +103,15 @@ struct Case {
     frame: Frame,
     neighbours: Vec<FaceNeighbours>,
     fans: Vec<u32>,
+    stream: Vec<u8>,
+    half_stream: Vec<u8>,
     shadow_depth: Vec<f32>,
     expected: Vec<Expected>,
 }
 
 fn as_defined_in_views_of_lamps_and_cascades(gpu: &Gpu) -> Outcome {
     let chain = Chain::new(gpu, "write_draw_args");
-    let runs = [SilhouetteSource::Stages, SilhouetteSource::Faces]
+    let runs = [SilhouetteSource::Stages, SilhouetteSource::Faces, STREAM]
         .map(|source| (source, run_of(gpu, source, pass_of(source).wgsl)));
     for mesh in meshes::shapes() {
         let of_lamps = lamps(&mesh).into_iter().flat_map(|lamp| views(&widened(&lamp)).unwrap_or_default());
@@ -101,6 +131,7 @@ fn faults_are_found(gpu: &Gpu, source: SilhouetteSource, faults: &[Replaced]) ->
     let shapes = meshes::shapes().into_iter();
     let chosen = shapes.filter(|mesh| ["knot", "fence", "elephant", "box"].contains(&&*mesh.name));
     for mesh in chosen.chain([pinwheel(), book([1.8, 1.9, 2.0, 2.1]), book([0.3, 1.4, 2.2, 4.0])]) {
+        let mesh = if source == HALF_STREAM { of_halves(&mesh) } else { mesh };
         let all = lights(&mesh);
         for light in [&all[0], &all[8], &lamps(&mesh)[1]] {
             let views = views(&widened(light)).map_err(|error| error.to_string())?;
@@ -114,6 +145,22 @@ fn faults_are_found(gpu: &Gpu, source: SilhouetteSource, faults: &[Replaced]) ->
     let wgsl = pass_of(source).wgsl;
     check(wgsl)?;
     check_each_is_found(wgsl, faults, check)
+}
+
+/// The mesh with positions that 16-bit floats hold, so that a stream of those rounds normals alone.
+fn of_halves(mesh: &TestMesh) -> TestMesh {
+    // Positions near 1 have 10 bits behind the point.
+    const STEP: f64 = 1.0 / 512.0;
+    let mut mesh = mesh.clone();
+    for part in &mut mesh.parts {
+        let near_one = NearOne::of_box(part.topology.bounds_min, part.topology.bounds_max);
+        let step = STEP / f64::from(near_one.scale);
+        let rounded = |coordinate: f32| ((f64::from(coordinate) / step).round() * step) as f32;
+        let positions: Vec<_> = part.topology.positions.iter().map(|position| position.map(rounded)).collect();
+        let built = TopologyAwareMesh::build(&positions, &part.triangles, &BuildOptions::default());
+        part.topology = Arc::new(built.expect("rounded positions are finite"));
+    }
+    mesh
 }
 
 /// Blades that share a vertex, where six outline edges meet.
@@ -142,6 +189,8 @@ fn pass_of(source: SilhouetteSource) -> &'static MapPass {
     let pass = match source {
         SilhouetteSource::Stages => Pass::SilhouetteMap,
         SilhouetteSource::Faces => Pass::SilhouetteMapTam,
+        SilhouetteSource::Stream(StreamPrecision::Bits32) => Pass::SilhouetteMapStream,
+        SilhouetteSource::Stream(StreamPrecision::Bits16) => Pass::SilhouetteMapHalfStream,
     };
     passes::ALL.iter().find(|known| known.pass == pass).expect("the library lists it")
 }
@@ -150,6 +199,7 @@ fn entry_points(source: SilhouetteSource) -> [&'static str; 2] {
     match source {
         SilhouetteSource::Stages => ["vertex_silhouette_quad", "fragment_silhouette_quad"],
         SilhouetteSource::Faces => ["vertex_silhouette_face", "fragment_silhouette_face"],
+        SilhouetteSource::Stream(_) => ["vertex_silhouette_stream", "fragment_silhouette_face"],
     }
 }
 
@@ -162,10 +212,12 @@ impl Case {
         let neighbours =
             mesh.parts.iter().flat_map(|part| [vec![gap], face_neighbours(&part.topology)].concat()).collect();
         let fans = mesh.parts.iter().flat_map(|part| [GAP.to_vec(), edge_fans(&part.topology)].concat()).collect();
+        let [stream, half_stream] =
+            [TamPrecision::Full, TamPrecision::Half].map(|precision| stream_of(mesh, &frame, precision));
         let quads = &frame.quads[..frame.counts().quads as usize];
         let shadow_depth = hiding_half(quads.iter().map(|quad| depth_of_q(&frame, quad.q[0])).collect(), &view);
         let expected = Definition { record: frame.view(), shadow_depth: &shadow_depth }.texels(quads);
-        Self { mesh: mesh.clone(), view, neighbours, fans, shadow_depth, expected, frame }
+        Self { mesh: mesh.clone(), view, neighbours, fans, stream, half_stream, shadow_depth, expected, frame }
     }
 
     fn check(&self, gpu: &Gpu, run: &MapRun, source: SilhouetteSource) -> Outcome {
@@ -174,17 +226,28 @@ impl Case {
         let bytes = |name: &str| match name {
             "face_neighbours" => cast_slice(&self.neighbours),
             "edge_fans" => cast_slice(&self.fans),
+            "stream_faces" if source == SilhouetteSource::Stream(StreamPrecision::Bits16) => &self.half_stream,
+            "stream_faces" => &self.stream,
             _ => frame.bytes(name),
         };
         let floats = run.run(gpu, bytes, &self.shadow_depth, view.far_depth, vertices);
         let map = map_of(&floats, view);
-        let doubtful = || match source {
-            SilhouetteSource::Stages => HashSet::new(),
-            SilhouetteSource::Faces => near_doubtful_edges(&self.mesh, view, MAP_SIZE),
-        };
+        let doubtful = || near_doubtful_edges(&self.mesh, view, source);
         compare(&map, &self.expected, view.far_depth, doubtful, &mut Counts::default())
             .map_err(|difference| format!("{}: {difference}", self.mesh.name))
     }
+}
+
+/// As the faces lie, from positions as the matrices expect them.
+fn stream_of(mesh: &TestMesh, frame: &Frame, precision: TamPrecision) -> Vec<u8> {
+    let gap = vec![0x55; TamForm::Faces.face_bytes(precision)];
+    let of_part = |(part, caster): (&TestPart, &Caster)| {
+        let options = TamOptions { origin: caster.position_origin, scale: caster.position_scale };
+        let stream = TamStream::new(&part.topology, &options);
+        let records = stream.records_in_place(0..part.topology.faces.len() as u32, precision);
+        [gap.clone(), records.expect("positions near 1 fit")].concat()
+    };
+    mesh.parts.iter().zip(&frame.casters).flat_map(of_part).collect()
 }
 
 /// A shadow map of blocks that show nothing and blocks that hide the deeper half of what is this deep.

@@ -7,6 +7,7 @@ mod masked_shadow_map;
 mod moments;
 mod shadow_map;
 mod silhouette_map;
+mod silhouette_map_stream;
 mod silhouette_map_tam;
 mod smoothie_alpha;
 mod smoothie_buffer;
@@ -105,7 +106,7 @@ pub enum DepthKept {
 }
 
 /// All passes over a light view's maps, in the order in which a frame runs them.
-pub const ALL: [MapPass; 13] = [
+pub const ALL: [MapPass; 17] = [
     hardware_shadow_map::HARDWARE_SHADOW_MAP,
     shadow_map::SHADOW_MAP,
     masked_hardware_shadow_map::MASKED_HARDWARE_SHADOW_MAP,
@@ -117,8 +118,12 @@ pub const ALL: [MapPass; 13] = [
     smoothie_buffer::SMOOTHIE_BUFFER,
     silhouette_map::SILHOUETTE_MAP,
     silhouette_map_tam::SILHOUETTE_MAP_TAM,
+    silhouette_map_stream::SILHOUETTE_MAP_STREAM,
+    silhouette_map_stream::SILHOUETTE_MAP_HALF_STREAM,
     silhouette_map::BLENDED_SILHOUETTE_MAP,
     silhouette_map_tam::BLENDED_SILHOUETTE_MAP_TAM,
+    silhouette_map_stream::BLENDED_SILHOUETTE_MAP_STREAM,
+    silhouette_map_stream::BLENDED_SILHOUETTE_MAP_HALF_STREAM,
 ];
 
 /// What a pass of a silhouette map is without depth that its fragments write.
@@ -165,4 +170,6 @@ pub(crate) const MODULES: &[ShaderModule] = &[
     ShaderModule::of("smoothie_buffer", SMOOTHIE_WGSL),
     ShaderModule::of("silhouette_map", silhouette_map::SILHOUETTE_MAP.wgsl),
     ShaderModule::of("silhouette_map_tam", silhouette_map_tam::SILHOUETTE_MAP_TAM.wgsl),
+    ShaderModule::of("silhouette_map_stream", silhouette_map_stream::SILHOUETTE_MAP_STREAM.wgsl),
+    ShaderModule::of("silhouette_map_stream+half", silhouette_map_stream::SILHOUETTE_MAP_HALF_STREAM.wgsl),
 ];

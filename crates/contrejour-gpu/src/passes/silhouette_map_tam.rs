@@ -17,7 +17,8 @@ pub(super) const SILHOUETTE_MAP_TAM: MapPass = MapPass {
         "power_of_two",
         "view_depth",
         "nowhere",
-        "silhouette_point"
+        "silhouette_point",
+        "silhouette_face"
     ),
     reads: Some(TextureKind::ShadowDepth),
     draws: &[DrawCount::Indirect(0)],

@@ -1,7 +1,9 @@
 //! The bytes of a stream.
 
 use std::iter::repeat_n;
+use std::ops::Range;
 
+use contrejour_layout::{HALF_STREAM_FACE_WORDS, STREAM_FACE_WORDS};
 use half::f16;
 use rayon::prelude::*;
 
@@ -56,8 +58,8 @@ impl TamForm {
         match (self, precision) {
             (Self::Items, TamPrecision::Full) => 3 * 4 * ITEM_NUMBERS,
             (Self::Items, TamPrecision::Half) => 3 * HALF_ITEM_BYTES,
-            (Self::Faces, TamPrecision::Full) => 72,
-            (Self::Faces, TamPrecision::Half) => 36,
+            (Self::Faces, TamPrecision::Full) => 4 * STREAM_FACE_WORDS as usize,
+            (Self::Faces, TamPrecision::Half) => 4 * HALF_STREAM_FACE_WORDS as usize,
         }
     }
 }
@@ -77,6 +79,25 @@ impl TamStream {
             TamPrecision::Full => bytemuck::cast_slice(&numbers.collect::<Vec<f32>>()).to_vec(),
             TamPrecision::Half => bytemuck::cast_slice(&numbers.map(f16::from_f32).collect::<Vec<f16>>()).to_vec(),
         })
+    }
+
+    /// The [records](TamForm::Faces) of some faces of the mesh, each in its place: those that are not in the stream are zeros,
+    /// which have no edge in any silhouette.
+    ///
+    /// # Errors
+    ///
+    /// As [`bytes`](Self::bytes).
+    pub fn records_in_place(&self, face_ids: Range<u32>, precision: TamPrecision) -> Result<Vec<u8>, TamError> {
+        let bytes = self.bytes(TamForm::Faces, precision)?;
+        let face_bytes = TamForm::Faces.face_bytes(precision);
+        let mut placed = vec![0; face_ids.len() * face_bytes];
+        for (record, id) in bytes.chunks_exact(face_bytes).zip(&self.face_ids) {
+            if face_ids.contains(id) {
+                let first = (id - face_ids.start) as usize * face_bytes;
+                placed[first..first + face_bytes].copy_from_slice(record);
+            }
+        }
+        Ok(placed)
     }
 
     fn check_halves(&self) -> Result<(), TamError> {

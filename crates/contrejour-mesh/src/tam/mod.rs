@@ -24,8 +24,8 @@ pub struct TamFace {
     /// Across the edge from each corner to the next: the unit normal of the face there, as it is wound with this one.
     ///
     /// The edge is in the silhouette where the light is in front of one of the two faces alone. So an edge without a
-    /// face across has the negated normal of its own face: it always is, but for a light in the plane of the face, which
-    /// it sees as a line. An edge that never is in the silhouette has zeros.
+    /// face across has the negated normal of its own face, twice as long: it is in the silhouette also where the light lies in
+    /// the plane of the face and rounding tells the sides. An edge that never is in the silhouette has zeros.
     pub neighbour_normals: [[f32; 3]; 3],
 }
 
@@ -59,8 +59,9 @@ pub struct TamStream {
     /// Edges that may be drawn though they are not in the silhouette.
     ///
     /// The faces of an edge of three and more are asked in pairs, of two that run along it in opposite ways where there
-    /// are such. The answers of two pairs may cancel, where their number is even, which a vertex stage can't know. So it
-    /// is beside a face without area that has no sign to take: such an edge is drawn whatever the light.
+    /// are such, and that are not the two sides of one. The answers of two pairs may cancel, where their number is even and
+    /// they do not lie in the same planes, which a vertex stage can't know. So it is beside a face without area that has no
+    /// sign to take: such an edge is drawn whatever the light.
     pub overdrawn_edges: u32,
 }
 

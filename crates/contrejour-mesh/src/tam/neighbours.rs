@@ -1,8 +1,8 @@
 //! Which face is across an edge.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 
-use contrejour_layout::{INCIDENCE_ALONG, UNLIT_FACE, incidence};
+use contrejour_layout::{Edge, INCIDENCE_ALONG, UNLIT_FACE, incidence};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -18,7 +18,10 @@ impl Pairs {
         let candidates = mesh.edges[..mesh.candidate_edge_count as usize].iter().enumerate();
         let words = candidates.map(|(edge_id, edge)| (edge_id, incidence_words(edge, &mesh.incidences)));
         let listed = words.filter(|(_, words)| words.len() > 2);
-        let pairs = listed.flat_map(|(edge_id, words)| pairs(words).map(move |pair| (edge_id, pair)));
+        let pairs = listed.flat_map(|(edge_id, words)| {
+            let third = |word| third_vertex(mesh, &mesh.edges[edge_id], word);
+            pairs(words, third).into_iter().map(move |pair| (edge_id, pair))
+        });
         let both_ways = pairs.flat_map(|(edge_id, [one, other])| [((edge_id, one), other), ((edge_id, other), one)]);
         Self(both_ways.collect())
     }
@@ -33,14 +36,29 @@ impl Pairs {
 }
 
 /// Pairs of an edge's words: each that runs along the edge with one that does not, then what is left two by two. An odd one
-/// is in none.
-fn pairs(words: &[u32]) -> impl Iterator<Item = [u32; 2]> {
-    let (along, against): (Vec<u32>, Vec<u32>) = words.iter().partition(|&&word| is_along(word));
-    let opposite = along.len().min(against.len());
-    let left = [&along[opposite..], &against[opposite..]].concat();
-    let mut pairs: Vec<_> = along.into_iter().zip(against).map(|(one, other)| [one, other]).collect();
+/// is in none. A face is paired with its own back only where there is no other: so the two sides of a sheet each ask their
+/// own neighbours, and agree.
+fn pairs<T: PartialEq>(words: &[u32], third: impl Fn(u32) -> T) -> Vec<[u32; 2]> {
+    let (along, mut against): (VecDeque<u32>, VecDeque<u32>) = words.iter().partition(|&&word| is_along(word));
+    let mut pairs = Vec::new();
+    let mut left = Vec::new();
+    for word in along {
+        let other = against.iter().position(|&other| third(other) != third(word));
+        match against.remove(other.unwrap_or(0)) {
+            Some(other) => pairs.push([word, other]),
+            None => left.push(word),
+        }
+    }
+    left.extend(against);
     pairs.extend(left.chunks_exact(2).map(|pair| [pair[0], pair[1]]));
-    pairs.into_iter()
+    pairs
+}
+
+/// The corner of a word's face that is not on the edge; none for a face without a sign, or one that is not at the edge itself.
+fn third_vertex(mesh: &TopologyAwareMesh, edge: &Edge, word: u32) -> Option<u32> {
+    let face = mesh.faces.get((word >> 1) as usize)?;
+    let mut corners = [face.a, face.b, face.c].into_iter();
+    corners.find(|corner| *corner != edge.low_vertex && *corner != edge.high_vertex)
 }
 
 /// What is across an edge of a face.
@@ -86,10 +104,13 @@ pub(super) fn neighbour_normals(
     normals: &[DVec3],
     pairs: &Pairs,
 ) -> Option<[[f32; 3]; 3]> {
+    let normal = normals[face_id as usize];
     let normal_across = |corner| match across(mesh, face_id, corner, pairs) {
         Across::Never => None,
-        Across::Nothing => Some(-normals[face_id as usize]),
+        Across::Nothing => Some(-2.0 * normal),
         Across::Face { id, along: false } => Some(normals[id as usize]),
+        // The face a second time.
+        Across::Face { id, along: true } if normals[id as usize] == normal => Some(-2.0 * normal),
         Across::Face { id, along: true } => Some(-normals[id as usize]),
     };
     let found: [Option<DVec3>; 3] = std::array::from_fn(normal_across);
@@ -105,12 +126,25 @@ pub(super) fn has_area(mesh: &TopologyAwareMesh) -> Vec<bool> {
 }
 
 /// Edges of several pairs whose answers can cancel, or with a face that has no sign to take. An odd number of signs never
-/// adds up to zero.
+/// adds up to zero, and pairs of the same planes have the same answer.
 pub(super) fn overdrawn_edges(mesh: &TopologyAwareMesh) -> u32 {
     let candidates = &mesh.edges[..mesh.candidate_edge_count as usize];
-    let can_cancel = |words: &[u32]| words.len() > 2 && words.len().is_multiple_of(2);
-    let is_overdrawn = |words: &[u32]| can_cancel(words) || words.iter().any(|word| word >> 1 == UNLIT_FACE);
-    candidates.iter().filter(|edge| is_overdrawn(incidence_words(edge, &mesh.incidences))).count() as u32
+    let can_cancel = |edge: &Edge, words: &[u32]| {
+        let third = |word| third_vertex(mesh, edge, word);
+        let planes = |[one, other]: [u32; 2]| {
+            let mut planes = [third(one), third(other)];
+            planes.sort_unstable();
+            planes
+        };
+        let mut planes_of_pairs = pairs(words, third).into_iter().map(planes);
+        let first = planes_of_pairs.next();
+        words.len().is_multiple_of(2) && planes_of_pairs.any(|planes| Some(planes) != first)
+    };
+    let is_overdrawn = |edge: &&Edge| {
+        let words = incidence_words(edge, &mesh.incidences);
+        words.iter().any(|word| word >> 1 == UNLIT_FACE) || (words.len() > 2 && can_cancel(edge, words))
+    };
+    candidates.iter().filter(is_overdrawn).count() as u32
 }
 
 pub(super) fn is_along(word: u32) -> bool {
@@ -125,8 +159,19 @@ mod tests {
     fn opposite_ways_are_paired_first() {
         let along = |face| incidence(face, true);
         let against = |face| incidence(face, false);
-        let found: Vec<_> = pairs(&[along(0), along(1), against(2), along(3), along(4)]).collect();
+        let itself = |word| word;
+        let found = pairs(&[along(0), along(1), against(2), along(3), along(4)], itself);
         assert_eq!(found, [[along(0), against(2)], [along(1), along(3)]]);
-        assert_eq!(pairs(&[along(7)]).count(), 0);
+        assert!(pairs(&[along(7)], itself).is_empty());
+    }
+
+    #[test]
+    fn a_face_is_not_paired_with_its_back() {
+        let [front, back, next, back_of_next] =
+            [incidence(0, true), incidence(1, false), incidence(2, false), incidence(3, true)];
+        let plane = |word: u32| word >> 2;
+        let found = pairs(&[front, back, next, back_of_next], plane);
+        assert_eq!(found, [[front, next], [back_of_next, back]]);
+        assert_eq!(pairs(&[front, back], plane), [[front, back]]);
     }
 }

@@ -15,6 +15,10 @@ pub enum BufferKind {
     FaceNeighbours,
     /// The faces around those edges of all meshes that have more than two, in words; as long as [`Incidences`](Self::Incidences).
     EdgeFans,
+    /// Topology-aware streams of all meshes, as long as [`Faces`](Self::Faces).
+    StreamFaces,
+    /// The same as 16-bit floats.
+    HalfStreamFaces,
     /// Planes of the faces of all meshes.
     Planes,
     /// Edges of all meshes that can be in a silhouette.
@@ -112,11 +116,13 @@ const BINDING_ALIGNMENT: u64 = 256;
 
 impl BufferKind {
     /// All buffers.
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 37] = [
         Self::Positions,
         Self::Faces,
         Self::FaceNeighbours,
         Self::EdgeFans,
+        Self::StreamFaces,
+        Self::HalfStreamFaces,
         Self::Planes,
         Self::Edges,
         Self::Incidences,
@@ -157,6 +163,8 @@ impl BufferKind {
             Self::Faces => "faces",
             Self::FaceNeighbours => "face_neighbours",
             Self::EdgeFans => "edge_fans",
+            Self::StreamFaces => "stream_faces",
+            Self::HalfStreamFaces => "half_stream_faces",
             Self::Planes => "planes",
             Self::Edges => "edges",
             Self::Incidences => "incidences",
@@ -239,6 +247,8 @@ impl BufferKind {
             Self::Masks => size_of::<layout::Mask>(),
             Self::Faces => size_of::<layout::Face>(),
             Self::FaceNeighbours => size_of::<layout::FaceNeighbours>(),
+            Self::StreamFaces => 4 * layout::STREAM_FACE_WORDS as usize,
+            Self::HalfStreamFaces => 4 * layout::HALF_STREAM_FACE_WORDS as usize,
             Self::Planes => size_of::<[f32; 4]>(),
             Self::Edges => size_of::<layout::Edge>(),
             Self::Casters => size_of::<layout::Caster>(),

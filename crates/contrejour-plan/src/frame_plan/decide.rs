@@ -4,7 +4,7 @@ use super::plan::has_size;
 use super::{BufferKind, CasterFacts, LeftOut, Omitted, Outputs, Pass, PlanInput, Reason, SceneFacts, Stage};
 use crate::{
     DepthPrecision, ObjectBox, SilhouetteMapSettings, SilhouetteSource, SilhouetteWinner, SmoothieBlend,
-    SmoothieSettings, SmoothieWidth, Technique, object_light,
+    SmoothieSettings, SmoothieWidth, StreamPrecision, Technique, object_light,
 };
 
 /// The passes that one technique or another can do without, those of outlines apart, and why; masked ones as those that they follow.
@@ -15,6 +15,16 @@ const WITHOUT_MAP_PASS: [Reason; 4] = [
     Reason::HardwareDepthIsEnough,
     Reason::TechniqueHasNoMoments,
     Reason::TechniqueHasNoMoments,
+];
+
+/// The passes that fill silhouette maps, by source: stages, faces, a stream of 32 bits and one of 16.
+const SILHOUETTES_BY_DEPTH: [Pass; 4] =
+    [Pass::SilhouetteMap, Pass::SilhouetteMapTam, Pass::SilhouetteMapStream, Pass::SilhouetteMapHalfStream];
+const SILHOUETTES_BY_BLENDING: [Pass; 4] = [
+    Pass::BlendedSilhouetteMap,
+    Pass::BlendedSilhouetteMapTam,
+    Pass::BlendedSilhouetteMapStream,
+    Pass::BlendedSilhouetteMapHalfStream,
 ];
 
 /// What was left out so far.
@@ -73,9 +83,9 @@ pub(super) fn outlines_wanted(input: &PlanInput<'_>, left_out: &mut LeftOutList)
         Some(Outlines::Smoothies(_)) => {}
         Some(Outlines::SilhouetteMap(silhouettes)) => match silhouettes.source {
             SilhouetteSource::Stages => left_out.add(Omitted::CornerStage, Reason::QuadsReachAroundEnds),
-            SilhouetteSource::Faces => {
-                left_out.add(Omitted::DetectionStages, Reason::VertexStageFindsThem);
-                left_out.add(Omitted::ExtrusionStages, Reason::VertexStageFindsThem);
+            of_vertex_stage => {
+                left_out.add(Omitted::DetectionStages, finds_them(of_vertex_stage));
+                left_out.add(Omitted::ExtrusionStages, finds_them(of_vertex_stage));
             }
         },
         None => {
@@ -99,7 +109,7 @@ pub(super) fn stages(input: &PlanInput<'_>, outlines: Option<&Outlines>, left_ou
                 SilhouetteSource::Stages => {
                     Stage::ALL.into_iter().filter(|stage| *stage != Stage::BuildCorners).collect()
                 }
-                SilhouetteSource::Faces => Stage::PLACEMENT.to_vec(),
+                SilhouetteSource::Faces | SilhouetteSource::Stream(_) => Stage::PLACEMENT.to_vec(),
             };
         }
         None => {}
@@ -209,19 +219,28 @@ fn silhouette_pass(input: &PlanInput<'_>, silhouettes: &SilhouetteMapSettings, l
         SilhouetteWinner::ByBlending if blends_depth(input) => (true, Reason::BlendingAskedFor),
         SilhouetteWinner::ByBlending => (false, Reason::DeviceBlendsNoFloats),
     };
-    let by_depth = [Pass::SilhouetteMap, Pass::SilhouetteMapTam];
-    let by_blending = [Pass::BlendedSilhouetteMap, Pass::BlendedSilhouetteMapTam];
-    let ([stages, faces], others) = if is_blended { (by_blending, by_depth) } else { (by_depth, by_blending) };
+    let (same_winner, others) = if is_blended {
+        (SILHOUETTES_BY_BLENDING, SILHOUETTES_BY_DEPTH)
+    } else {
+        (SILHOUETTES_BY_DEPTH, SILHOUETTES_BY_BLENDING)
+    };
+    let chosen = same_winner[match silhouettes.source {
+        SilhouetteSource::Stages => 0,
+        SilhouetteSource::Faces => 1,
+        SilhouetteSource::Stream(StreamPrecision::Bits32) => 2,
+        SilhouetteSource::Stream(StreamPrecision::Bits16) => 3,
+    }];
     left_out.all(others.into_iter().map(Omitted::Pass), not_otherwise);
-    match silhouettes.source {
-        SilhouetteSource::Stages => {
-            left_out.add(Omitted::Pass(faces), Reason::StagesFindThem);
-            stages
-        }
-        SilhouetteSource::Faces => {
-            left_out.add(Omitted::Pass(stages), Reason::VertexStageFindsThem);
-            faces
-        }
+    let not_chosen = same_winner.into_iter().filter(|pass| *pass != chosen);
+    left_out.all(not_chosen.map(Omitted::Pass), finds_them(silhouettes.source));
+    chosen
+}
+
+fn finds_them(source: SilhouetteSource) -> Reason {
+    match source {
+        SilhouetteSource::Stages => Reason::StagesFindThem,
+        SilhouetteSource::Faces => Reason::VertexStageFindsThem,
+        SilhouetteSource::Stream(_) => Reason::StreamTellsThem,
     }
 }
 
@@ -255,10 +274,20 @@ fn is_seen(input: &PlanInput<'_>, bounds: &ObjectBox) -> bool {
 }
 
 /// Notes who casts and has no silhouette, where silhouettes are looked for.
-pub(super) fn note_masked(scene: &SceneFacts, stages: &[Stage], left_out: &mut LeftOutList) {
-    if stages.contains(&Stage::DetectSilhouette) {
-        let names = masked_casters(scene).map(|caster| caster.name.clone());
-        left_out.all(names.map(Omitted::Silhouette), Reason::MaskCutsIt);
+pub(super) fn note_without_silhouette(
+    scene: &SceneFacts,
+    stages: &[Stage],
+    passes: &[Pass],
+    left_out: &mut LeftOutList,
+) {
+    let silhouette = |caster: &CasterFacts| Omitted::Silhouette(caster.name.clone());
+    if stages.contains(&Stage::DetectSilhouette) || passes.iter().any(|pass| pass.fills_silhouette_map()) {
+        left_out.all(masked_casters(scene).map(silhouette), Reason::MaskCutsIt);
+    }
+    let reads = |kind| passes.iter().any(|pass| pass.buffers().contains(&kind));
+    if reads(BufferKind::StreamFaces) || reads(BufferKind::HalfStreamFaces) {
+        let moved = scene.casters.iter().filter(|caster| has_faces(scene, caster) && !caster.has_planes());
+        left_out.all(moved.map(silhouette), Reason::StreamIsAtRest);
     }
 }
 

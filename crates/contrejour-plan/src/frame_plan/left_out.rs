@@ -74,6 +74,8 @@ pub enum Reason {
     StagesFindThem,
     /// The vertex stage of the pass finds silhouettes.
     VertexStageFindsThem,
+    /// A stream of normals tells the vertex stage which they are.
+    StreamTellsThem,
     /// Depth that fragments write tells the nearest silhouette.
     DepthTellsTheNearest,
     /// The settings ask for the least distance by blending.
@@ -116,6 +118,8 @@ pub enum Reason {
     ReceivesOnly,
     /// A mask cuts the caster's faces, so nobody knows its silhouette: it is in the shadow map alone.
     MaskCutsIt,
+    /// The caster brings its own positions, and a stream holds those of its mesh: it is in the shadow map alone.
+    StreamIsAtRest,
     /// Masks cut the faces of everything that casts.
     MasksCutAll,
     /// No mask cuts a caster.
@@ -166,6 +170,7 @@ impl fmt::Display for Reason {
             Self::TechniqueHasNoSilhouettes => "the technique looks at no silhouettes",
             Self::StagesFindThem => "compute stages find silhouettes",
             Self::VertexStageFindsThem => "the vertex stage finds silhouettes",
+            Self::StreamTellsThem => "a stream of normals tells the vertex stage where silhouettes are",
             Self::DepthTellsTheNearest => "depth that fragments write tells the nearest silhouette",
             Self::BlendingAskedFor => "the settings ask for the least distance by blending",
             Self::QuadsReachAroundEnds => "quads reach around the ends of their edges",
@@ -189,6 +194,9 @@ impl fmt::Display for Reason {
             Self::NoFaces => "it has no face",
             Self::ReceivesOnly => "it only receives",
             Self::MaskCutsIt => "a mask cuts its faces: it is in the shadow map alone",
+            Self::StreamIsAtRest => {
+                "its positions are the caller's and the stream's are the mesh's own: it is in the shadow map alone"
+            }
             Self::MasksCutAll => "masks cut the faces of everything that casts",
             Self::NothingIsMasked => "no mask cuts a caster",
             Self::NothingIsInstanced => "each caster has one matrix",

@@ -30,17 +30,25 @@ pub enum Pass {
     SilhouetteMap,
     /// The same, from faces that the vertex stage finds to have outline edges.
     SilhouetteMapTam,
+    /// The same, from a stream of faces that brings the normals of their neighbours.
+    SilhouetteMapStream,
+    /// The same, from a stream of 16-bit floats.
+    SilhouetteMapHalfStream,
     /// Least distance to silhouettes and their least depth, from quads.
     BlendedSilhouetteMap,
     /// The same, from faces that the vertex stage finds to have outline edges.
     BlendedSilhouetteMapTam,
+    /// The same, from a stream of faces that brings the normals of their neighbours.
+    BlendedSilhouetteMapStream,
+    /// The same, from a stream of 16-bit floats.
+    BlendedSilhouetteMapHalfStream,
     /// Visibility of each pixel of the caller's depth buffer, in a target of the caller's.
     Visibility,
 }
 
 impl Pass {
     /// All passes in the order in which a frame runs them.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 18] = [
         Self::HardwareShadowMap,
         Self::ShadowMap,
         Self::MaskedHardwareShadowMap,
@@ -52,8 +60,12 @@ impl Pass {
         Self::SmoothieBuffer,
         Self::SilhouetteMap,
         Self::SilhouetteMapTam,
+        Self::SilhouetteMapStream,
+        Self::SilhouetteMapHalfStream,
         Self::BlendedSilhouetteMap,
         Self::BlendedSilhouetteMapTam,
+        Self::BlendedSilhouetteMapStream,
+        Self::BlendedSilhouetteMapHalfStream,
         Self::Visibility,
     ];
 
@@ -71,8 +83,12 @@ impl Pass {
             Self::SmoothieBuffer => "smoothie_buffer",
             Self::SilhouetteMap => "silhouette_map",
             Self::SilhouetteMapTam => "silhouette_map_tam",
+            Self::SilhouetteMapStream => "silhouette_map_stream",
+            Self::SilhouetteMapHalfStream => "silhouette_map_half_stream",
             Self::BlendedSilhouetteMap => "blended_silhouette_map",
             Self::BlendedSilhouetteMapTam => "blended_silhouette_map_tam",
+            Self::BlendedSilhouetteMapStream => "blended_silhouette_map_stream",
+            Self::BlendedSilhouetteMapHalfStream => "blended_silhouette_map_half_stream",
             Self::Visibility => "visibility",
         }
     }
@@ -95,6 +111,12 @@ impl Pass {
             Self::SilhouetteMapTam | Self::BlendedSilhouetteMapTam => {
                 &[LightView, FaceItems, Casters, CasterLights, Faces, FaceNeighbours, EdgeFans, Positions, DrawArgs]
             }
+            Self::SilhouetteMapStream | Self::BlendedSilhouetteMapStream => {
+                &[LightView, FaceItems, Casters, CasterLights, StreamFaces, DrawArgs]
+            }
+            Self::SilhouetteMapHalfStream | Self::BlendedSilhouetteMapHalfStream => {
+                &[LightView, FaceItems, Casters, CasterLights, HalfStreamFaces, DrawArgs]
+            }
             Self::Visibility => &[ReceiverView],
         }
     }
@@ -108,8 +130,14 @@ impl Pass {
             Self::SmoothieDepth => &[TextureKind::SmoothieDepth],
             Self::SmoothieAlpha => &[TextureKind::SmoothieAlpha],
             Self::SmoothieBuffer => &[TextureKind::SmoothieBuffer],
-            Self::SilhouetteMap | Self::SilhouetteMapTam => &[TextureKind::SilhouetteMap, TextureKind::SilhouetteOrder],
-            Self::BlendedSilhouetteMap | Self::BlendedSilhouetteMapTam => &[TextureKind::SilhouetteMap],
+            Self::SilhouetteMap
+            | Self::SilhouetteMapTam
+            | Self::SilhouetteMapStream
+            | Self::SilhouetteMapHalfStream => &[TextureKind::SilhouetteMap, TextureKind::SilhouetteOrder],
+            Self::BlendedSilhouetteMap
+            | Self::BlendedSilhouetteMapTam
+            | Self::BlendedSilhouetteMapStream
+            | Self::BlendedSilhouetteMapHalfStream => &[TextureKind::SilhouetteMap],
             // Its levels are those of the texture that the pass before made.
             Self::BlurredMoments | Self::Visibility => &[],
             // They draw over what the pass before made.
@@ -123,11 +151,8 @@ impl Pass {
     }
 
     /// Whether it fills the silhouette map.
-    pub const fn fills_silhouette_map(self) -> bool {
-        matches!(
-            self,
-            Self::SilhouetteMap | Self::SilhouetteMapTam | Self::BlendedSilhouetteMap | Self::BlendedSilhouetteMapTam
-        )
+    pub fn fills_silhouette_map(self) -> bool {
+        self.fills().contains(&TextureKind::SilhouetteMap)
     }
 
     /// Whether it draws quads and corners.

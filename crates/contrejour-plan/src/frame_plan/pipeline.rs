@@ -70,8 +70,14 @@ impl PipelinePlan {
             Pass::SmoothieBuffer => (&["vertex_quad", "vertex_corner"], Some("fragment_smoothie_buffer")),
             Pass::SilhouetteMap => (&["vertex_silhouette_quad"], Some("fragment_silhouette_quad")),
             Pass::SilhouetteMapTam => (&["vertex_silhouette_face"], Some("fragment_silhouette_face")),
+            Pass::SilhouetteMapStream | Pass::SilhouetteMapHalfStream => {
+                (&["vertex_silhouette_stream"], Some("fragment_silhouette_face"))
+            }
             Pass::BlendedSilhouetteMap => (&["vertex_silhouette_quad"], Some("fragment_blended_silhouette_quad")),
             Pass::BlendedSilhouetteMapTam => (&["vertex_silhouette_face"], Some("fragment_blended_silhouette_face")),
+            Pass::BlendedSilhouetteMapStream | Pass::BlendedSilhouetteMapHalfStream => {
+                (&["vertex_silhouette_stream"], Some("fragment_blended_silhouette_face"))
+            }
             Pass::Visibility => (&["vertex_visibility"], Some("fragment_visibility")),
         };
         let constants = match technique {

@@ -1,6 +1,6 @@
 //! The frame plan and how it is made.
 
-use super::decide::{LeftOutList, casting, lacks_planes, note_masked, outlines_wanted, passes, stages};
+use super::decide::{LeftOutList, casting, lacks_planes, note_without_silhouette, outlines_wanted, passes, stages};
 use super::page::{Page, pages};
 use super::room::{kept, with_room};
 use super::seats::{most_items_with, seats, wanted_seats};
@@ -98,7 +98,7 @@ impl FramePlan {
         }
 
         let lacks_planes = lacks_planes(input, &stages, &mut left_out);
-        note_masked(scene, &stages, &mut left_out);
+        note_without_silhouette(scene, &stages, &passes, &mut left_out);
 
         // Decide who casts in this frame.
         let casting = casting(input, &mut left_out);

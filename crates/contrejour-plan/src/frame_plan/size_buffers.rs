@@ -146,7 +146,9 @@ impl PageSizes {
     fn items(&self, kind: BufferKind) -> u64 {
         let capacity = Capacity::expecting(self.outline_edges, self.edges, self.floor);
         match kind {
-            BufferKind::Faces | BufferKind::FaceNeighbours => self.pool_faces,
+            BufferKind::Faces | BufferKind::FaceNeighbours | BufferKind::StreamFaces | BufferKind::HalfStreamFaces => {
+                self.pool_faces
+            }
             BufferKind::Planes if self.lacks_planes => 0,
             BufferKind::Planes => self.pool_faces,
             BufferKind::Edges => self.pool_edges,

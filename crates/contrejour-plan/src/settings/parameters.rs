@@ -4,8 +4,8 @@ use core::fmt;
 use core::ops::Bound;
 
 use super::{
-    GaussianKernel, GaussianPcfSettings, PcssSettings, SettingsError, SilhouetteMapSettings, SilhouetteWinner,
-    SmoothieSettings, SmoothieWidth, Technique, VarianceSettings, VarianceSoftness,
+    GaussianKernel, GaussianPcfSettings, PcssSettings, SettingsError, SilhouetteMapSettings, SilhouetteSource,
+    SilhouetteWinner, SmoothieSettings, SmoothieWidth, StreamPrecision, Technique, VarianceSettings, VarianceSoftness,
 };
 
 /// A number that a technique can be tuned by.
@@ -30,6 +30,8 @@ pub enum ParameterRange {
     Whole(u32, u32),
     /// An odd number of texels for which there is a kernel.
     Kernel,
+    /// The bits of the floats of a stream.
+    StreamBits,
 }
 
 impl ParameterRange {
@@ -41,6 +43,7 @@ impl ParameterRange {
             Self::Above(limit, most) => (Bound::Excluded(limit), Bound::Included(most)).contains(&value),
             Self::Whole(least, most) => value.fract() == 0.0 && (least.into()..=most.into()).contains(&value),
             Self::Kernel => kernel(value).is_some(),
+            Self::StreamBits => stream_precision(value).is_some(),
         }
     }
 }
@@ -54,6 +57,7 @@ impl fmt::Display for ParameterRange {
             Self::Kernel => {
                 formatter.write_str(&GaussianKernel::ALL.map(|kernel| kernel.texels().to_string()).join(" or "))
             }
+            Self::StreamBits => formatter.write_str(&STREAM_PRECISIONS.map(|(bits, _)| bits.to_string()).join(" or ")),
         }
     }
 }
@@ -65,6 +69,7 @@ enum Slot<'a> {
     Kernel(&'a mut GaussianKernel),
     Width(&'a mut SmoothieWidth),
     Blending(&'a mut SilhouetteWinner),
+    StreamBits(&'a mut StreamPrecision),
 }
 
 impl Slot<'_> {
@@ -77,6 +82,7 @@ impl Slot<'_> {
             Self::Width(SmoothieWidth::Ndc(width)) => width.to_string().parse().unwrap_or((*width).into()),
             Self::Width(SmoothieWidth::FromLightSize) => return None,
             Self::Blending(winner) => f64::from(u8::from(**winner == SilhouetteWinner::ByBlending)),
+            Self::StreamBits(precision) => stream_bits(**precision).into(),
         })
     }
 
@@ -89,12 +95,26 @@ impl Slot<'_> {
             Self::Width(width) => **width = SmoothieWidth::Ndc(value as f32),
             Self::Blending(winner) if value == 1.0 => **winner = SilhouetteWinner::ByBlending,
             Self::Blending(winner) => **winner = SilhouetteWinner::ByDepth,
+            Self::StreamBits(precision) => **precision = stream_precision(value).unwrap_or(**precision),
         }
     }
 }
 
 fn kernel(value: f64) -> Option<GaussianKernel> {
     GaussianKernel::ALL.into_iter().find(|kernel| f64::from(kernel.texels()) == value)
+}
+
+const STREAM_PRECISIONS: [(u8, StreamPrecision); 2] = [(16, StreamPrecision::Bits16), (32, StreamPrecision::Bits32)];
+
+fn stream_precision(value: f64) -> Option<StreamPrecision> {
+    STREAM_PRECISIONS.into_iter().find(|(bits, _)| f64::from(*bits) == value).map(|(_, precision)| precision)
+}
+
+fn stream_bits(precision: StreamPrecision) -> u8 {
+    match precision {
+        StreamPrecision::Bits16 => 16,
+        StreamPrecision::Bits32 => 32,
+    }
 }
 
 const NDC: ParameterRange = ParameterRange::Above(0.0, 2.0);
@@ -161,12 +181,20 @@ impl Technique {
             Self::Smoothies(SmoothieSettings { width, width_max_ndc, .. }) => {
                 vec![("width_ndc", NDC, Slot::Width(width)), ("width_max_ndc", NDC, Slot::Number(width_max_ndc))]
             }
-            Self::SilhouetteMap(SilhouetteMapSettings { edge_texels, width_max_ndc, samples, winner, .. }) => vec![
-                ("edge_texels", ParameterRange::Above(0.0, 4.0), Slot::Number(edge_texels)),
-                ("width_max_ndc", NDC, Slot::Number(width_max_ndc)),
-                ("samples", SAMPLES, Slot::Count(samples)),
-                ("blending", ParameterRange::Whole(0, 1), Slot::Blending(winner)),
-            ],
+            Self::SilhouetteMap(SilhouetteMapSettings {
+                source, edge_texels, width_max_ndc, samples, winner, ..
+            }) => {
+                let mut slots = vec![
+                    ("edge_texels", ParameterRange::Above(0.0, 4.0), Slot::Number(edge_texels)),
+                    ("width_max_ndc", NDC, Slot::Number(width_max_ndc)),
+                    ("samples", SAMPLES, Slot::Count(samples)),
+                    ("blending", ParameterRange::Whole(0, 1), Slot::Blending(winner)),
+                ];
+                if let SilhouetteSource::Stream(precision) = source {
+                    slots.push(("stream_bits", ParameterRange::StreamBits, Slot::StreamBits(precision)));
+                }
+                slots
+            }
         }
     }
 }
@@ -188,6 +216,7 @@ mod tests {
                     ParameterRange::Between(_, most) | ParameterRange::Above(_, most) => most,
                     ParameterRange::Whole(_, most) => most.into(),
                     ParameterRange::Kernel => 7.0,
+                    ParameterRange::StreamBits => 16.0,
                 };
                 assert!(parameter.value.is_none_or(|value| parameter.range.contains(value)), "{name} {parameter:?}");
                 assert_eq!(technique.set(parameter.name, good), Ok(()));

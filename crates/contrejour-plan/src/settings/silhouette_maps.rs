@@ -37,6 +37,23 @@ pub enum SilhouetteSource {
     /// The vertex stage, as topology-aware meshes do it: each face asks its neighbours, and one with an outline edge is
     /// drawn larger.
     Faces,
+    /// The vertex stage too, from a stream that holds the normals across the edges of each face at rest: that of Valient and
+    /// Bujnak (2005). Faces whose positions the caller brings are in the shadow map alone, and edges of more than two faces
+    /// may be drawn without being in a silhouette.
+    Stream(StreamPrecision),
+}
+
+/// The floats of a topology-aware stream.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum StreamPrecision {
+    /// 32 bits: 72 bytes a face.
+    #[default]
+    Bits32,
+    /// 16 bits: 36 bytes a face. Corners are off by up to 1/2048 of the mesh's half size, and small faces turn with them, so
+    /// edges may be missed.
+    Bits16,
 }
 
 /// How the nearest of the silhouettes around a texel wins.
@@ -79,6 +96,9 @@ impl SilhouetteMapSettings {
 
     /// The defaults of `silhouette-map-tam`.
     pub const TAM: Self = Self { source: SilhouetteSource::Faces, ..Self::DEFAULT };
+
+    /// The defaults of `silhouette-map-stream`.
+    pub const STREAM: Self = Self { source: SilhouetteSource::Stream(StreamPrecision::Bits32), ..Self::DEFAULT };
 
     /// How far from a silhouette distances are drawn at least, in texels: half the hardest edge and a texel's diagonal, so
     /// that all four texels around a place on that edge hold one (Valient and Bujnak 2005, `w_sc`).

@@ -47,7 +47,7 @@ pub struct UnknownTechnique {
 
 impl Technique {
     /// The names of all techniques.
-    pub const NAMES: [&str; 12] = [
+    pub const NAMES: [&str; 13] = [
         "shadow-map",
         "pcf",
         "gaussian-pcf",
@@ -60,6 +60,7 @@ impl Technique {
         "smoothies",
         "silhouette-map",
         "silhouette-map-tam",
+        "silhouette-map-stream",
     ];
 
     /// Whether it reads moments of warped depth.
@@ -82,12 +83,15 @@ impl Technique {
                 (true, VarianceSoftness::FromLightSize { .. }) => "evsm-pcss",
             },
             Self::Smoothies(_) => "smoothies",
-            Self::SilhouetteMap(SilhouetteMapSettings { source: SilhouetteSource::Stages, .. }) => "silhouette-map",
-            Self::SilhouetteMap(SilhouetteMapSettings { source: SilhouetteSource::Faces, .. }) => "silhouette-map-tam",
+            Self::SilhouetteMap(SilhouetteMapSettings { source, .. }) => match source {
+                SilhouetteSource::Stages => "silhouette-map",
+                SilhouetteSource::Faces => "silhouette-map-tam",
+                SilhouetteSource::Stream(_) => "silhouette-map-stream",
+            },
         }
     }
 
-    /// The technique of a name: itself where that is its own, else with default settings. Both sources of a silhouette map
+    /// The technique of a name: itself where that is its own, else with default settings. All sources of a silhouette map
     /// are tuned alike, so from one to the other its settings stay.
     ///
     /// # Errors
@@ -134,6 +138,7 @@ impl FromStr for Technique {
             "smoothies" => Self::Smoothies(SmoothieSettings::DEFAULT),
             "silhouette-map" => Self::SilhouetteMap(SilhouetteMapSettings::DEFAULT),
             "silhouette-map-tam" => Self::SilhouetteMap(SilhouetteMapSettings::TAM),
+            "silhouette-map-stream" => Self::SilhouetteMap(SilhouetteMapSettings::STREAM),
             _ => return Err(UnknownTechnique { name: name.to_owned() }),
         })
     }

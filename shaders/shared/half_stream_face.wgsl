@@ -1,0 +1,14 @@
+// A face of a topology-aware stream, of 16-bit floats.
+
+fn stream_face(index: u32) -> array<vec3f, 6> {
+    var vectors: array<vec3f, 6>;
+    for (var pair = 0u; pair < 3u; pair++) {
+        let word = HALF_STREAM_FACE_WORDS * index + 3u * pair;
+        let first = unpack2x16float(stream_faces[word]);
+        let middle = unpack2x16float(stream_faces[word + 1u]);
+        let last = unpack2x16float(stream_faces[word + 2u]);
+        vectors[2u * pair] = vec3f(first, middle.x);
+        vectors[2u * pair + 1u] = vec3f(middle.y, last);
+    }
+    return vectors;
+}

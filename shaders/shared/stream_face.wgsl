@@ -1,0 +1,11 @@
+// A face of a topology-aware stream, of 32-bit floats.
+
+fn stream_face(index: u32) -> array<vec3f, 6> {
+    var vectors: array<vec3f, 6>;
+    for (var i = 0u; i < 6u; i++) {
+        let word = STREAM_FACE_WORDS * index + 3u * i;
+        let bits = vec3u(stream_faces[word], stream_faces[word + 1u], stream_faces[word + 2u]);
+        vectors[i] = bitcast<vec3f>(bits);
+    }
+    return vectors;
+}
