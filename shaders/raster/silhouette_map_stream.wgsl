@@ -11,6 +11,10 @@
 @group(0) @binding(4) var<storage, read> stream_faces: array<u32>;
 @group(1) @binding(0) var shadow_depth: texture_2d<f32>;
 
+// Squared lengths of normals across, between those that tell of different things: 1, 2 and 4.
+const DRAWN_UNLIT = 2.0;
+const ALWAYS_DRAWN = 8.0;
+
 @vertex
 fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVertex {
     let item = face_items[index / (3u * BLOCK_SIZE)];
@@ -26,16 +30,16 @@ fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVert
     let clip_from_object = caster_lights[item.caster].light_clip_from_object;
     let image_from_normal = cofactors(clip_from_object);
 
-    // Both faces at an outline edge draw it: where normals are rounded one of them may not know of it.
     let normal = cross(near_one(corners[1] - corners[0]), near_one(corners[2] - corners[0]));
     let is_lit = faces_light(clip_from_object, image_from_normal, corners[0], normal);
     var outline: FaceOutline;
     for (var i = 0u; i < 3u; i++) {
+        // Its length tells who draws the edge.
         let across = vectors[3u + i];
-        // None where the edge is never in the silhouette, twice as long where it always is.
         let length_squared = dot(across, across);
+        let draws = length_squared > DRAWN_UNLIT || (length_squared > 0.0 && (is_lit || UNLIT_FACES_DRAW));
         let differs = is_lit != faces_light(clip_from_object, image_from_normal, corners[i], across);
-        if length_squared < 0.5 || (length_squared < 2.0 && !differs) {
+        if !draws || (length_squared < ALWAYS_DRAWN && !differs) {
             continue;
         }
         let begin = corners[i];

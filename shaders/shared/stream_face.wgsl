@@ -1,5 +1,8 @@
 // A face of a topology-aware stream, of 32-bit floats.
 
+// Of two faces at an outline edge the lit one draws it.
+const UNLIT_FACES_DRAW = false;
+
 fn stream_face(index: u32) -> array<vec3f, 6> {
     var vectors: array<vec3f, 6>;
     for (var i = 0u; i < 6u; i++) {

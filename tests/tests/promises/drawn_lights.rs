@@ -315,7 +315,11 @@ translate = [1.6, 1.3, 2.4]
         )
     };
     let sides = ["positive-x", "negative-x", "positive-y", "negative-y", "positive-z", "negative-z"];
-    for (technique, triangles) in [("silhouette-map", "strips"), ("silhouette-map-tam", "scaled_faces")] {
+    for (technique, triangles) in [
+        ("silhouette-map", "strips"),
+        ("silhouette-map-tam", "scaled_faces"),
+        ("silhouette-map-stream", "scaled_faces"),
+    ] {
         let scene = Scene::from_toml(&lamp(technique), Path::new(""), "lamp.toml").map_err(text)?;
         let mut renderer = renderer(&scene)?;
         renderer.draw_complete().map_err(text)?;

@@ -312,8 +312,9 @@ fn contestants_do_not_touch_each_other() -> Outcome {
     if found(true)? != visibilities {
         return Err("the order of contestants matters".into());
     }
-    // Both sources of a silhouette map fill the same one.
-    let is_another = |(index, _): &(usize, _)| Technique::NAMES[*index] != "silhouette-map-tam";
+    // All sources of a silhouette map fill the same one.
+    let of_other_sources = ["silhouette-map-tam", "silhouette-map-stream"];
+    let is_another = |(index, _): &(usize, _)| !of_other_sources.contains(&Technique::NAMES[*index]);
     for (index, visibility) in visibilities.iter().enumerate().filter(is_another) {
         if visibilities[..index].contains(visibility) {
             return Err(format!("technique {index} has the visibility of another one"));

@@ -150,6 +150,13 @@ const FAMILIES: &[Family] = &[
         depth_bits: BITS_32,
     },
     Family {
+        name: "silhouette map stream",
+        technique: "silhouette-map-stream",
+        fixed: &[],
+        swept: &[sweep("stream_bits", &[32.0, 16.0], 1)],
+        depth_bits: BITS_32,
+    },
+    Family {
         name: "blended silhouette map",
         technique: "silhouette-map",
         fixed: &[("blending", 1.0)],

@@ -11,7 +11,7 @@ use contrejour_layout::{
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::neighbours::{Across, Pairs, across, edge_of_face, has_area, is_along};
+use super::neighbours::{Across, Pairs, across, edge_of_face, has_area, has_edge, is_along};
 use crate::{TopologyAwareMesh, incidence_words};
 
 /// What is across the edges of all faces. Faces without area have nothing to draw, and one face at each edge of more than two
@@ -108,11 +108,6 @@ fn fans(mesh: &TopologyAwareMesh, has_area: &[bool]) -> HashMap<[u32; 2], Fan> {
         (vertices, Fan { offset: edge.second, drawer: faces.find(can_draw) })
     };
     listed_edges(mesh).map(fan).collect()
-}
-
-fn has_edge(mesh: &TopologyAwareMesh, face_id: u32, edge: [u32; 2]) -> bool {
-    let face = mesh.faces[face_id as usize];
-    edge.iter().all(|vertex| [face.a, face.b, face.c].contains(vertex))
 }
 
 /// The corner of a face that is farthest from an edge. The face is at the edge, or beyond faces without area that lie on it.

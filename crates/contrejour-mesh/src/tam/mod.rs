@@ -21,11 +21,16 @@ use neighbours::{Pairs, has_area, neighbour_normals};
 pub struct TamFace {
     /// Its corners.
     pub corners: [[f32; 3]; 3],
-    /// Across the edge from each corner to the next: the unit normal of the face there, as it is wound with this one.
+    /// Across the edge from each corner to the next: the normal of the face there, as it is wound with this one.
     ///
-    /// The edge is in the silhouette where the light is in front of one of the two faces alone. So an edge without a
-    /// face across has the negated normal of its own face, twice as long: it is in the silhouette also where the light lies in
-    /// the plane of the face and rounding tells the sides. An edge that never is in the silhouette has zeros.
+    /// The edge is in the silhouette where the light is in front of one of the two faces alone. Its length says who draws the
+    /// edge then:
+    ///
+    /// - 1: the one of the two that is lit.
+    /// - 2: this face, also while it is unlit. The other one is wound the wrong way, or knows the edge by another name.
+    /// - 4: this face, and whatever the light. There is no face across, so this is the negated normal of the face here; a light
+    ///   in its plane leaves rounding to tell the sides.
+    /// - 0: nobody. The edge is never in the silhouette.
     pub neighbour_normals: [[f32; 3]; 3],
 }
 

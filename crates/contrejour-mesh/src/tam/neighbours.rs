@@ -97,6 +97,12 @@ pub(super) fn edge_of_face(mesh: &TopologyAwareMesh, face_id: u32, corner: usize
     [vertices[corner], vertices[(corner + 1) % 3]]
 }
 
+/// How long a normal across is where the face here draws the edge also while it is unlit, since the other one may not.
+const DRAWN_UNLIT: f64 = 2.0;
+
+/// The same where the edge is in the silhouette whatever the light.
+const ALWAYS_DRAWN: f64 = 4.0;
+
 /// The normals across the three edges of a face with area; `None` where no edge can be in a silhouette.
 pub(super) fn neighbour_normals(
     mesh: &TopologyAwareMesh,
@@ -107,15 +113,25 @@ pub(super) fn neighbour_normals(
     let normal = normals[face_id as usize];
     let normal_across = |corner| match across(mesh, face_id, corner, pairs) {
         Across::Never => None,
-        Across::Nothing => Some(-2.0 * normal),
-        Across::Face { id, along: false } => Some(normals[id as usize]),
+        Across::Nothing => Some(-ALWAYS_DRAWN * normal),
+        Across::Face { id, along: false } => {
+            let across = normals[id as usize];
+            // One beyond a face without area draws nothing there.
+            let draws_too = has_edge(mesh, id, edge_of_face(mesh, face_id, corner));
+            Some(if draws_too { across } else { DRAWN_UNLIT * across })
+        }
         // The face a second time.
-        Across::Face { id, along: true } if normals[id as usize] == normal => Some(-2.0 * normal),
-        Across::Face { id, along: true } => Some(-normals[id as usize]),
+        Across::Face { id, along: true } if normals[id as usize] == normal => Some(-ALWAYS_DRAWN * normal),
+        Across::Face { id, along: true } => Some(-DRAWN_UNLIT * normals[id as usize]),
     };
     let found: [Option<DVec3>; 3] = std::array::from_fn(normal_across);
     let stored = |normal: Option<DVec3>| normal.unwrap_or_default().as_vec3().to_array();
     found.iter().any(Option::is_some).then(|| found.map(stored))
+}
+
+pub(super) fn has_edge(mesh: &TopologyAwareMesh, face_id: u32, edge: [u32; 2]) -> bool {
+    let face = mesh.faces[face_id as usize];
+    edge.iter().all(|vertex| [face.a, face.b, face.c].contains(vertex))
 }
 
 /// Which faces have an area.

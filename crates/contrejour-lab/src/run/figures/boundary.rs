@@ -196,7 +196,7 @@ mod tests {
             let scene = BoundaryScene::new(&gpu, outline, 512, SIZE).expect("it can be drawn");
             let stairs = error(&scene, "shadow-map");
             assert!(stairs.crossings > 300 && stairs.mean > 0.1 && stairs.largest < 2.0, "{outline:?}: {stairs:?}");
-            for name in ["silhouette-map", "silhouette-map-tam"] {
+            for name in ["silhouette-map", "silhouette-map-tam", "silhouette-map-stream"] {
                 let edge = error(&scene, name);
                 eprintln!("{outline:?}, {name}: {edge:?}; shadow map: {stairs:?}");
                 assert!(edge.crossings > 200 && 4.0 * edge.mean <= stairs.mean, "{outline:?}, {name}: {edge:?}");

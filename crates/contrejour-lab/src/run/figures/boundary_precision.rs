@@ -3,10 +3,21 @@
 use super::super::error::RunError;
 use super::super::lab::Lab;
 use super::boundary::{BoundaryError, BoundaryScene, Outline};
-use super::methods::{Method, SHADOW_MAP, SILHOUETTE_MAP, SILHOUETTE_MAP_TAM, THIN, TWO_BY_TWO};
+use super::methods::{
+    Method, SHADOW_MAP, SILHOUETTE_MAP, SILHOUETTE_MAP_HALF_STREAM, SILHOUETTE_MAP_STREAM, SILHOUETTE_MAP_TAM, THIN,
+    TWO_BY_TWO,
+};
 use crate::report::{Axis, Body, Extent, Figure, GridRow, PictureGrid, Plot, Scale, Series, Stroke};
 
-const METHODS: [Method; 5] = [SHADOW_MAP, TWO_BY_TWO, THIN, SILHOUETTE_MAP, SILHOUETTE_MAP_TAM];
+const METHODS: [Method; 7] = [
+    SHADOW_MAP,
+    TWO_BY_TWO,
+    THIN,
+    SILHOUETTE_MAP,
+    SILHOUETTE_MAP_TAM,
+    SILHOUETTE_MAP_STREAM,
+    SILHOUETTE_MAP_HALF_STREAM,
+];
 
 const OUTLINES: [(Outline, &str); 2] = [(Outline::Straight, "straight"), (Outline::Round, "round")];
 

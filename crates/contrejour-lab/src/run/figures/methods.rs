@@ -1,7 +1,8 @@
 //! The techniques that the papers' figures compare.
 
 use contrejour_plan::{
-    ShadowSettings, SilhouetteMapSettings, SilhouetteWinner, SmoothieSettings, SmoothieWidth, Technique,
+    ShadowSettings, SilhouetteMapSettings, SilhouetteSource, SilhouetteWinner, SmoothieSettings, SmoothieWidth,
+    StreamPrecision, Technique,
 };
 
 /// A technique and what a figure calls it.
@@ -54,7 +55,24 @@ pub(super) const SILHOUETTE_MAP_TAM: Method = Method {
     technique: Technique::SilhouetteMap(SilhouetteMapSettings::TAM),
 };
 
-/// The same without depth that fragments write.
+/// The same from the stream that Valient and Bujnak (2005) have.
+pub(super) const SILHOUETTE_MAP_STREAM: Method = Method {
+    label: "silhouette map, stream",
+    file: "silhouette-map-stream",
+    technique: Technique::SilhouetteMap(SilhouetteMapSettings::STREAM),
+};
+
+/// The same from their stream of 16-bit floats.
+pub(super) const SILHOUETTE_MAP_HALF_STREAM: Method = Method {
+    label: "silhouette map, half stream",
+    file: "silhouette-map-half-stream",
+    technique: Technique::SilhouetteMap(SilhouetteMapSettings {
+        source: SilhouetteSource::Stream(StreamPrecision::Bits16),
+        ..SilhouetteMapSettings::STREAM
+    }),
+};
+
+/// Silhouettes from the compute stages, without depth that fragments write.
 pub(super) const BLENDED_SILHOUETTE_MAP: Method = Method {
     label: "silhouette map, blended",
     file: "blended-silhouette-map",
