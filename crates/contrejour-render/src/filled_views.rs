@@ -90,10 +90,7 @@ impl Renderer {
             let map = cast.shadows.maps(light).silhouette_map;
             maps.extend(pass.zip(map).map(|(pass, map)| (light, pass, map.width())));
         }
-        let counted = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("counted triangles"),
-            source: wgpu::ShaderSource::Wgsl(COUNTED_TRIANGLES.into()),
-        });
+        let counter = TriangleCounter::new(gpu);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut copies = Vec::new();
         cast.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
@@ -106,7 +103,7 @@ impl Renderer {
             let map = maps.iter().find(|(light, ..)| *light == view.light);
             let triangles = map.map(|&(_, pass, size)| CountedTriangles {
                 pass,
-                counts: count_triangles(gpu, encoder, view, (pass, size), &counted),
+                counts: counter.count(encoder, view, (pass, size), None),
             });
             copies.push(Copied { light: view.light, view: view.view, counters, silhouettes, triangles });
         });
@@ -115,36 +112,57 @@ impl Renderer {
     }
 }
 
-fn count_triangles(
-    gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
-    view: &FilledView<'_>,
-    (pass, size): (Pass, u32),
-    counted: &wgpu::ShaderModule,
-) -> wgpu::Texture {
-    let counts = target_texture(gpu, "counted triangles", [size; 2], 1, COUNT_FORMAT, wgpu::TextureUsages::COPY_SRC);
-    let target = counts.create_view(&wgpu::TextureViewDescriptor::default());
-    let mut into = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("counted triangles"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &target,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
-        })],
-        ..Default::default()
-    });
-    let fragment = wgpu::FragmentState {
-        module: counted,
-        entry_point: Some("fragment_counted"),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        targets: &[Some(wgpu::ColorTargetState {
-            format: COUNT_FORMAT,
-            blend: Some(wgpu::BlendState { color: SUM, alpha: SUM }),
-            write_mask: wgpu::ColorWrites::ALL,
-        })],
-    };
-    view.draw_again(&gpu.device, pass, &fragment, &mut into);
-    drop(into);
-    counts
+/// Draws the triangles of a pass once more, and counts them.
+pub(crate) struct TriangleCounter<'a> {
+    gpu: &'a Gpu,
+    module: wgpu::ShaderModule,
+}
+
+impl<'a> TriangleCounter<'a> {
+    pub fn new(gpu: &'a Gpu) -> Self {
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("counted triangles"),
+            source: wgpu::ShaderSource::Wgsl(COUNTED_TRIANGLES.into()),
+        });
+        Self { gpu, module }
+    }
+
+    /// How many triangles cover each of so many texels along a side.
+    pub fn count(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &FilledView<'_>,
+        (pass, size): (Pass, u32),
+        timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) -> wgpu::Texture {
+        let Self { gpu, module } = self;
+        let counts =
+            target_texture(gpu, "counted triangles", [size; 2], 1, COUNT_FORMAT, wgpu::TextureUsages::COPY_SRC);
+        let target = counts.create_view(&wgpu::TextureViewDescriptor::default());
+        let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store };
+        let mut into = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("counted triangles"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &target,
+                depth_slice: None,
+                resolve_target: None,
+                ops,
+            })],
+            timestamp_writes,
+            ..Default::default()
+        });
+        let fragment = wgpu::FragmentState {
+            module,
+            entry_point: Some("fragment_counted"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: COUNT_FORMAT,
+                blend: Some(wgpu::BlendState { color: SUM, alpha: SUM }),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        };
+        view.draw_again(&gpu.device, pass, &fragment, &mut into);
+        drop(into);
+        counts
+    }
 }

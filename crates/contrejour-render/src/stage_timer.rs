@@ -4,6 +4,7 @@ use contrejour_gpu::PassTimer;
 use wgpu_profiler::{GpuProfiler, GpuProfilerQuery, GpuProfilerSettings, GpuTimerQueryResult};
 
 use crate::Gpu;
+use crate::error::DrawError;
 
 /// Times passes by timestamps; where the device has none, nothing is timed.
 pub struct StageTimer {
@@ -82,6 +83,17 @@ impl StageTimer {
     /// Takes the times of the oldest frame that have arrived, in the order in which its stages ran.
     pub(crate) fn take_frame(&mut self) -> Option<FrameTime> {
         self.profiler.process_finished_frame(self.timestamp_period).map(|passes| FrameTime::of(&passes))
+    }
+
+    /// Ends a frame after its submission, waits, and takes its times.
+    pub(crate) fn last_frame(&mut self, gpu: &Gpu) -> Result<FrameTime, DrawError> {
+        self.end_frame()?;
+        gpu.wait(None)?;
+        let mut last = FrameTime::default();
+        while let Some(frame) = self.take_frame() {
+            last = frame;
+        }
+        Ok(last)
     }
 
     /// The stages in the order in which they first ran.

@@ -135,7 +135,7 @@
 //! | Key | Value | Default |
 //! | --- | --- | --- |
 //! | `preset` | `"low"`, `"medium"`, `"high"` or `"ultra"`: where the other defaults come from | `"medium"` |
-//! | `technique` | `"shadow-map"`, `"pcf"`, `"gaussian-pcf"`, `"bicubic-pcf"`, `"pcss"`, `"vsm"`, `"evsm"`, `"vsm-pcss"`, `"evsm-pcss"`, `"smoothies"`, `"silhouette-map"` or `"silhouette-map-tam"`; see [`Technique`](contrejour_plan::Technique) | `"smoothies"` |
+//! | `technique` | `"shadow-map"`, `"pcf"`, `"gaussian-pcf"`, `"bicubic-pcf"`, `"pcss"`, `"vsm"`, `"evsm"`, `"vsm-pcss"`, `"evsm-pcss"`, `"smoothies"`, `"silhouette-map"`, `"silhouette-map-tam"` or `"silhouette-map-stream"`; see [`Technique`](contrejour_plan::Technique) | `"smoothies"` |
 //! | `map_size` | texels along a side of the maps, 1 to 16384 | the preset's |
 //! | `depth_bits` | `16` or `32`: how exactly the maps keep linear depth | `32` |
 //! | `bias_constant_texels`, `bias_slope_texels`, `bias_normal_texels`, `bias_smoothie_texels` | depth biases, 0 and up; see [`DepthBias`](contrejour_plan::DepthBias) | the preset's |
@@ -148,7 +148,7 @@
 //! | `width_max_ndc` | largest width of the smoothies; more than 0, up to 2 | the preset's |
 //! | `remap` | `"contact"`: soft edges harden at the contact; `"off"`: they do not, for comparison | `"contact"` |
 //!
-//! Silhouette maps of both kinds:
+//! Silhouette maps of all kinds:
 //!
 //! | Key | Value | Default |
 //! | --- | --- | --- |
@@ -156,6 +156,7 @@
 //! | `width_max_ndc` | largest half width of a penumbra on the map; more than 0, up to 2 | `0.1` |
 //! | `samples` | places at which a soft edge is looked up, 1 to 1024 | `8` |
 //! | `blending` | `0`: the nearest silhouette's distance and depth by depth that fragments write; `1`: the least of both by blending | `0` |
+//! | `stream_bits` | `16` or `32`, for `silhouette-map-stream`: the floats of its stream | `32` |
 //! | `profile` | `"disk"`: a soft edge is as that of a disk of light; `"linear"`: it goes evenly from dark to lit | `"disk"` |
 //!
 //! Others:

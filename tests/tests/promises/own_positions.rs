@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use contrejour_gpu::{CasterInput, Positions, ShadowOptions, Shadows, Untimed};
 use contrejour_mesh::{BuildOptions, Motion, TopologyAwareMesh};
-use contrejour_plan::{BufferKind, Outputs};
+use contrejour_plan::{
+    BufferKind, Light, LightKind, Outputs, Reason, ShadowSettings, SilhouetteMapSettings, Technique,
+};
 use contrejour_tests::exhaust::{Exhaust, OwnPositions};
 use contrejour_tests::gpu::Gpu;
 use contrejour_tests::harness::{Outcome, gpu_trial};
@@ -13,6 +15,7 @@ use contrejour_tests::lights::point;
 use contrejour_tests::many_lights::{adversarial_lights, random_lights};
 use contrejour_tests::meshes::{TestPart, shapes, shared_named};
 use contrejour_tests::random::Random;
+use contrejour_tests::texture::read_floats;
 use glam::{DMat4, DVec3};
 use libtest_mimic::Trial;
 
@@ -45,6 +48,7 @@ pub fn trials() -> Vec<Trial> {
     vec![
         gpu_trial("own_positions::silhouettes_are_exact_where_the_device_moves_vertices", are_exact),
         gpu_trial("own_positions::planes_come_with_the_positions_of_the_mesh", planes_come_with_the_mesh),
+        gpu_trial("own_positions::a_stream_has_silhouettes_of_the_mesh_alone", a_stream_has_silhouettes_of_the_mesh),
     ]
 }
 
@@ -126,16 +130,22 @@ fn skin_pipeline(gpu: &Gpu) -> wgpu::ComputePipeline {
     })
 }
 
+const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+fn one_face() -> Result<Arc<TopologyAwareMesh>, String> {
+    let options = BuildOptions { motion: Motion::Deforming, ..Default::default() };
+    let topology = TopologyAwareMesh::build(&CORNERS, &[[0, 1, 2]], &options).map_err(|error| error.to_string())?;
+    Ok(Arc::new(topology))
+}
+
 /// A face turns its back on the light while the caller moves it. The buffer of its plane is as large as one without.
 fn planes_come_with_the_mesh(gpu: &Gpu) -> Outcome {
-    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f32]];
-    let options = BuildOptions { motion: Motion::Deforming, ..Default::default() };
-    let topology = TopologyAwareMesh::build(&corners, &[[0, 1, 2]], &options).map_err(|error| error.to_string())?;
-    let turned = [corners[0], corners[2], corners[1]];
+    let topology = one_face()?;
+    let turned = [0, 2, 1].map(|corner| CORNERS[corner]);
     let buffer = gpu.upload("turned", bytemuck::cast_slice(&turned), wgpu::BufferUsages::STORAGE);
     let shadow_options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
     let mut shadows = Shadows::new(&gpu.device).map_err(|error| error.to_string())?;
-    let mesh = shadows.add_mesh(Arc::new(topology)).map_err(|error| error.to_string())?;
+    let mesh = shadows.add_mesh(topology).map_err(|error| error.to_string())?;
     let light = point(DVec3::new(0.1, 0.2, 4.0), DVec3::ZERO, 1.0);
     shadows.add_light(&light, &shadow_options).map_err(|error| error.to_string())?;
     let live = Positions::InBuffer { buffer, offset: 0, stride: 12, known: None };
@@ -156,6 +166,41 @@ fn planes_come_with_the_mesh(gpu: &Gpu) -> Outcome {
             return Err(format!("lit bits are {found}, expected {expected} with {positions:?}"));
         }
         shadows.remove_caster(caster).map_err(|error| error.to_string())?;
+    }
+    Ok(())
+}
+
+/// What the caller moves is in the shadow map of a stream and not in its silhouette map, and the plan says so.
+fn a_stream_has_silhouettes_of_the_mesh(gpu: &Gpu) -> Outcome {
+    let buffer = gpu.upload("face", bytemuck::cast_slice(&CORNERS), wgpu::BufferUsages::STORAGE);
+    let moved = Positions::InBuffer { buffer, offset: 0, stride: 12, known: None };
+    let technique = Technique::SilhouetteMap(SilhouetteMapSettings::STREAM);
+    let settings = ShadowSettings { technique, map_size: 64, ..Default::default() };
+    let above = DVec3::new(0.1, 0.2, 4.0);
+    let kind =
+        LightKind::Spot { position: above, target: DVec3::ZERO, cone_angle: 1.0, radius: 0.1, near: 1.0, far: 9.0 };
+    let light = Light { kind, color: [1.0; 3] };
+    for (positions, has_silhouette) in [(Positions::OfMesh, true), (moved, false)] {
+        let mut shadows = Shadows::new(&gpu.device).map_err(|error| error.to_string())?;
+        let mesh = shadows.add_mesh(one_face()?).map_err(|error| error.to_string())?;
+        let options = ShadowOptions { settings, ..Default::default() };
+        let light = shadows.add_light(&light, &options).map_err(|error| error.to_string())?;
+        let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions };
+        shadows.add_caster(&caster).map_err(|error| error.to_string())?;
+        shadows.prepare(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        shadows.encode(&mut encoder, &mut Untimed);
+        gpu.queue.submit([encoder.finish()]);
+        let maps = shadows.maps(light);
+        let is_nearer = |depth: &f32| *depth < 9.0;
+        let shadow_depth = read_floats(gpu, maps.shadow_depth.ok_or("there is no shadow map")?);
+        let silhouettes = read_floats(gpu, maps.silhouette_map.ok_or("there is no silhouette map")?);
+        let found = [shadow_depth.iter().any(is_nearer), silhouettes.iter().step_by(2).any(is_nearer)];
+        let plan = shadows.plan(light).ok_or("the light was prepared")?;
+        let is_told = plan.left_out.iter().any(|left_out| left_out.reason == Reason::StreamIsAtRest);
+        if (found, is_told) != ([true, has_silhouette], !has_silhouette) {
+            return Err(format!("in its maps: {found:?}, told as left out: {is_told}"));
+        }
     }
     Ok(())
 }

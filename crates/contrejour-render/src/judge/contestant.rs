@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use contrejour_gpu::{LightHandle, Maps, Shadows};
+use contrejour_gpu::{LightHandle, Maps, PassTimer, Shadows, Untimed};
 use contrejour_plan::{FramePlan, Light, ShadowSettings};
 use cpu_time::ThreadTime;
 
@@ -12,6 +12,7 @@ use super::error::NewContestantError;
 use super::visibility_pass::{VISIBILITY_FORMAT, VisibilityPass};
 use crate::casters::CastShadows;
 use crate::error::{DrawError, MAX_REPEATS};
+use crate::filled_views::TriangleCounter;
 use crate::readback::{ReadError, read_texture};
 use crate::stage_timer::{FrameTime, PassTime, StageTimer};
 use crate::targets::target_texture;
@@ -104,13 +105,7 @@ impl Contestant {
         let wall_ms = 1000.0 * wall_clock.elapsed().as_secs_f64();
 
         // Only now does the timer ask for its results, so that this is in neither time.
-        self.timer.end_frame()?;
-        gpu.wait(None)?;
-        let mut time = FrameTime::default();
-        while let Some(frame) = self.timer.take_frame() {
-            time = frame;
-        }
-        let FrameTime { whole_ms, passes } = time;
+        let FrameTime { whole_ms, passes } = self.timer.last_frame(gpu)?;
         Ok(FrameCost {
             cpu_ms,
             wall_ms,
@@ -119,6 +114,35 @@ impl Contestant {
             is_unchanged: self.cast.shadows.stats().lights_redone == 0,
             repeats: 0,
         })
+    }
+
+    /// How long the vertex stage takes of the pass that fills the silhouette map, without the fragments: that pass, drawn
+    /// once more into a single texel. `None` where there is no such pass, or the device has no timestamps. Unit: milliseconds.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn silhouette_vertices_ms(&mut self, light: &Light) -> Result<Option<f64>, DrawError> {
+        let JudgedScene { gpu, casters, local, eye_local, .. } = &*self.scene;
+        self.cast.shadows.redraw();
+        self.cast.prepare(gpu, casters, [(self.light, &local.light(light))], eye_local)?;
+        let plan = self.cast.shadows.plan(self.light);
+        let Some(pass) = plan.and_then(|plan| plan.passes.iter().copied().find(|pass| pass.fills_silhouette_map()))
+        else {
+            return Ok(None);
+        };
+        let counter = TriangleCounter::new(gpu);
+        let mut encoder =
+            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("vertices") });
+        let timer = &mut self.timer;
+        self.cast.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
+            let query = timer.begin("vertices", encoder);
+            counter.count(encoder, view, (pass, 1), StageTimer::render_writes(&query));
+            timer.end(query, encoder);
+        });
+        self.timer.resolve(&mut encoder);
+        gpu.wait(Some(gpu.queue.submit([encoder.finish()])))?;
+        Ok(self.timer.last_frame(gpu)?.passes.first().map(|vertices| vertices.gpu_ms))
     }
 
     /// Visibility of the light from each receiver in the last frame, rows from the top, 0 dark to 1 lit; 1 where there

@@ -32,6 +32,7 @@ const KEYS: &[&str] = &[
     "edge_texels",
     "samples",
     "blending",
+    "stream_bits",
 ];
 /// Those of the keys that are parameters of one technique or another.
 const PARAMETERS: &[&str] = KEYS.split_at(10).1;

@@ -1,8 +1,8 @@
 use std::path::Path;
 
 use contrejour_plan::{
-    AlphaRemap, CascadeSettings, DepthPrecision, EdgeProfile, LightKind, ShadowSettings, SilhouetteWinner,
-    SmoothieWidth, Technique,
+    AlphaRemap, CascadeSettings, DepthPrecision, EdgeProfile, LightKind, ShadowSettings, SilhouetteMapSettings,
+    SilhouetteSource, SilhouetteWinner, SmoothieWidth, StreamPrecision, Technique,
 };
 use glam::DVec3;
 
@@ -272,6 +272,14 @@ fn shadow_settings_are_read_and_checked() {
     };
     assert_eq!((silhouettes.profile, silhouettes.samples), (EdgeProfile::Linear, 4));
     assert_eq!(silhouettes.winner, SilhouetteWinner::ByBlending);
+    let of_halves = read(&with("technique = \"silhouette-map-stream\"\nstream_bits = 16")).expect("good");
+    let halves = SilhouetteSource::Stream(StreamPrecision::Bits16);
+    assert!(matches!(
+        of_halves.lights[0].shadow.technique,
+        Technique::SilhouetteMap(SilhouetteMapSettings { source, .. }) if source == halves
+    ));
+    assert!(message("technique = \"silhouette-map-stream\"\nstream_bits = 24").contains("give 16 or 32"));
+    assert!(message("technique = \"silhouette-map-tam\"\nstream_bits = 16").contains("no parameter \"stream_bits\""));
     assert!(message("technique = \"silhouette-map\"\nblending = 2").contains("a whole number from 0 to 1"));
     assert!(message("profile = \"disk\"").contains("the technique smoothies has no parameter \"profile\""));
     assert!(message("technique = \"silhouette-map\"\nremap = \"off\"").contains("no parameter \"remap\""));

@@ -95,6 +95,12 @@ const fn of_width(width_ndc: f32) -> SmoothieSettings {
 }
 
 impl Method {
+    /// Whether the vertex stage of a pass finds silhouettes.
+    pub fn finds_in_vertex_stage(&self) -> bool {
+        let from_stages = |silhouettes: &SilhouetteMapSettings| silhouettes.source == SilhouetteSource::Stages;
+        matches!(&self.technique, Technique::SilhouetteMap(silhouettes) if !from_stages(silhouettes))
+    }
+
     /// A scene's settings with this technique.
     pub fn settings(&self, scene: &ShadowSettings, map_size: u32) -> ShadowSettings {
         ShadowSettings { technique: self.technique, map_size, ..*scene }

@@ -15,6 +15,7 @@ use super::methods::{
 };
 use super::sight::built_in;
 use super::turns::turns;
+use crate::metrics::Timing;
 use crate::report::{Body, Cost, Figure, Table};
 
 /// 2 * 600 * 25 = 30 000 faces, as many as the paper's scene has.
@@ -61,14 +62,18 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     let mut told_of = Vec::new();
     for map_size in MAP_SIZES {
         let costs = turns(lab, &subject, &METHODS, map_size, &lab.options.effort)?;
-        rows.extend(METHODS.iter().zip(&costs).map(|(method, cost)| row(map_size, method, cost, &costs[0])));
+        for (method, cost) in METHODS.iter().zip(&costs) {
+            let vertices_ms =
+                if method.finds_in_vertex_stage() { vertices_ms(lab, &subject, method, map_size)? } else { None };
+            rows.push(row(map_size, method, (cost, vertices_ms.unwrap_or(0.0)), &costs[0]));
+        }
         told_of.push((map_size, [2, 3, 4].map(|method| ratio(&costs[method], &costs[0]))));
     }
     let clock = if lab.gpu.is_software() { "the clock on the wall, around a submission" } else { "device timestamps" };
     let caption = format!(
         "The scene knot with a knot of 30 000 faces, {faces} together, under a light that moves; Valient and Bujnak (2005) have a scene of some \
          30 000 polygons. Medians by {clock}, of the whole shadow work and of asking all receivers; the parts are sums of \
-         their passes' medians. {}",
+         their passes' medians. Where the vertex stage detects, that is its pass, drawn once more into a single texel. {}",
         told(&told_of),
     );
     let columns = ["map, method", "ms", "ratio", "detection, ms", "rasterising, ms", "shading, ms", "maps", "buffers"];
@@ -76,9 +81,21 @@ pub(super) fn make(lab: &Lab) -> Result<Figure, RunError> {
     Ok(Figure { title: "What silhouette maps cost".to_owned(), caption, body: Body::Table(table) })
 }
 
-fn row(map_size: u32, method: &Method, cost: &Cost, plain: &Cost) -> Vec<String> {
-    let times = [Part::Detection, Part::Rasterising, Part::Shading].map(|part| match part_ms(cost, part) {
-        Some(ms) => format!("{ms:.2}"),
+/// How long the vertex stage of the pass takes that fills the silhouette map; `None` where the device has no timestamps.
+fn vertices_ms(lab: &Lab, subject: &Subject, method: &Method, map_size: u32) -> Result<Option<f64>, RunError> {
+    let mut contestant = subject.judge.contestant(&method.settings(&subject.shadow, map_size))?;
+    contestant.draw(&subject.light)?;
+    let rounds = 0..lab.options.effort.timed_rounds;
+    let times =
+        rounds.map(|_| contestant.silhouette_vertices_ms(&subject.light)).collect::<Result<Option<Vec<_>>, _>>()?;
+    Ok(times.map(|times| Timing::from_samples(&times)).transpose()?.map(|timing| timing.median_ms))
+}
+
+/// A row of the table, with what of the rasterising is the vertex stage's detection.
+fn row(map_size: u32, method: &Method, (cost, vertices_ms): (&Cost, f64), plain: &Cost) -> Vec<String> {
+    let moved = [(Part::Detection, vertices_ms), (Part::Rasterising, -vertices_ms), (Part::Shading, 0.0)];
+    let times = moved.map(|(part, moved_ms)| match part_ms(cost, part) {
+        Some(ms) => format!("{:.2}", ms + moved_ms),
         None => "no clock".to_owned(),
     });
     let memory = |bytes: u64, of: u64| format!("{:.2}", bytes as f64 / of.max(1) as f64);

@@ -4,8 +4,8 @@ use super::*;
 use crate::{
     AlphaRemap, CasterFacts, DepthPrecision, EntryPoints, Light, LightKind, MapSampler, MaskFacts, MeshFacts,
     MeshPiece, ObjectBox, PagedCaster, PoolHoles, Seating, SettingsError, SilhouetteMapSettings, SilhouetteSource,
-    SilhouetteWinner, SmoothieBlend, SmoothieSettings, SmoothieWidth, Technique, TextureFormat, VarianceSettings,
-    views,
+    SilhouetteWinner, SmoothieBlend, SmoothieSettings, SmoothieWidth, StreamPrecision, Technique, TextureFormat,
+    VarianceSettings, views,
 };
 
 mod masked;
@@ -297,7 +297,7 @@ fn each_technique_has_the_maps_that_its_receivers_read() {
 }
 
 #[test]
-fn either_source_of_a_silhouette_map_needs_its_own() {
+fn each_source_of_a_silhouette_map_needs_its_own() {
     let mut case = Case::new(cube_scene());
     case.settings.technique = Technique::SilhouetteMap(SilhouetteMapSettings::DEFAULT);
     let plan = case.good();
@@ -311,6 +311,34 @@ fn either_source_of_a_silhouette_map_needs_its_own() {
     assert_eq!(plan.reason(&Omitted::DetectionStages), Some(Reason::VertexStageFindsThem));
     assert_eq!(bytes(&plan, BufferKind::FaceNeighbours), bytes(&plan, BufferKind::Faces));
     assert!(plan.buffer(BufferKind::Edges).is_none() && plan.buffer(BufferKind::Quads).is_none());
+    let passes_and_faces = [
+        (StreamPrecision::Bits32, Pass::SilhouetteMapStream, BufferKind::StreamFaces, 6),
+        (StreamPrecision::Bits16, Pass::SilhouetteMapHalfStream, BufferKind::HalfStreamFaces, 3),
+    ];
+    for (precision, pass, faces, times) in passes_and_faces {
+        let source = SilhouetteSource::Stream(precision);
+        case.settings.technique = Technique::SilhouetteMap(SilhouetteMapSettings { source, ..Default::default() });
+        let plan = case.good();
+        assert_eq!(plan.passes, [Pass::ShadowMap, pass]);
+        assert_eq!(plan.reason(&Omitted::Pass(Pass::SilhouetteMapTam)), Some(Reason::StreamTellsThem));
+        assert_eq!(bytes(&plan, faces), bytes(&plan, BufferKind::Faces).map(|bytes| times * bytes));
+        assert!(plan.buffer(BufferKind::FaceNeighbours).is_none() && plan.buffer(BufferKind::EdgeFans).is_none());
+    }
+}
+
+#[test]
+fn a_stream_has_no_silhouette_of_what_the_caller_moves() {
+    let mut case = Case::new(cube_scene());
+    let moved = Omitted::Silhouette(case.scene.casters[0].name.clone());
+    for (technique, reason) in
+        [(SilhouetteMapSettings::STREAM, Some(Reason::StreamIsAtRest)), (SilhouetteMapSettings::TAM, None)]
+    {
+        case.settings.technique = Technique::SilhouetteMap(technique);
+        case.scene.casters[0].own_position_words = 0;
+        assert_eq!(case.good().reason(&moved), None);
+        case.scene.casters[0].own_position_words = 24;
+        assert_eq!(case.good().reason(&moved), reason);
+    }
 }
 
 #[test]
@@ -320,6 +348,8 @@ fn blending_leaves_out_the_order_of_silhouettes_where_the_device_blends() {
     for (source, pass) in [
         (SilhouetteSource::Stages, Pass::BlendedSilhouetteMap),
         (SilhouetteSource::Faces, Pass::BlendedSilhouetteMapTam),
+        (SilhouetteSource::Stream(StreamPrecision::Bits32), Pass::BlendedSilhouetteMapStream),
+        (SilhouetteSource::Stream(StreamPrecision::Bits16), Pass::BlendedSilhouetteMapHalfStream),
     ] {
         let winner = SilhouetteWinner::ByBlending;
         case.settings.technique =
