@@ -31,14 +31,15 @@ fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVert
     let image_from_normal = cofactors(clip_from_object);
 
     let normal = cross(near_one(corners[1] - corners[0]), near_one(corners[2] - corners[0]));
-    let is_lit = faces_light(clip_from_object, image_from_normal, corners[0], normal);
+    let own_facing = facing(clip_from_object, image_from_normal, corners[0], normal);
+    let is_lit = own_facing > 0.0;
     var outline: FaceOutline;
     for (var i = 0u; i < 3u; i++) {
         // Its length tells who draws the edge.
         let across = vectors[3u + i];
         let length_squared = dot(across, across);
-        let draws = length_squared > DRAWN_UNLIT || (length_squared > 0.0 && (is_lit || UNLIT_FACES_DRAW));
-        let differs = is_lit != faces_light(clip_from_object, image_from_normal, corners[i], across);
+        let draws = length_squared > DRAWN_UNLIT || (length_squared > 0.0 && own_facing > LEAST_FACING_DRAWN);
+        let differs = is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > 0.0);
         if !draws || (length_squared < ALWAYS_DRAWN && !differs) {
             continue;
         }
@@ -50,10 +51,10 @@ fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVert
     return silhouette_vertex(outline, clip_from_object, corners, index % 3u);
 }
 
-// Whether a plane shows the light its front.
-fn faces_light(clip_from_object: mat4x4f, image_from_normal: mat3x3f, place: vec3f, normal: vec3f) -> bool {
+// Above zero where a plane shows the light its front.
+fn facing(clip_from_object: mat4x4f, image_from_normal: mat3x3f, place: vec3f, normal: vec3f) -> f32 {
     let clip = clip_from_object * vec4f(place, 1.0);
-    return dot(near_one(clip.xyw), image_from_normal * normal) > 0.0;
+    return dot(near_one(clip.xyw), image_from_normal * normal);
 }
 
 // Brings normals to where x, y and w of clip space are positions: the cross product of two sides goes there as the sides do.

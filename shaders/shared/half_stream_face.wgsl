@@ -1,7 +1,8 @@
 // A face of a topology-aware stream, of 16-bit floats.
 
-// Both faces at an outline edge draw it: one of them may not know of it, since its own normal is that of rounded corners.
-const UNLIT_FACES_DRAW = true;
+// Both faces at an outline edge draw it: rounded corners may turn a small face to any side, and its neighbours know another
+// normal of it.
+const LEAST_FACING_DRAWN = -1e30;
 
 fn stream_face(index: u32) -> array<vec3f, 6> {
     var vectors: array<vec3f, 6>;

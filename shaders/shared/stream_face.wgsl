@@ -1,7 +1,8 @@
 // A face of a topology-aware stream, of 32-bit floats.
 
-// Of two faces at an outline edge the lit one draws it.
-const UNLIT_FACES_DRAW = false;
+// Of two faces at an outline edge the lit one draws it, and also one that may be lit, but for rounding: its neighbours know a
+// normal of it that is rounded otherwise.
+const LEAST_FACING_DRAWN = -1e-5;
 
 fn stream_face(index: u32) -> array<vec3f, 6> {
     var vectors: array<vec3f, 6>;

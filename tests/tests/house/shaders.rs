@@ -8,7 +8,8 @@ use crate::modules::{self, Module, parse};
 /// Validates without any optional capability, as WebGPU's baseline has none.
 fn validate(module: &Module) -> Result<(naga::Module, ModuleInfo), String> {
     let parsed = parse(module);
-    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+    // WGSL has `unpack2x16float` everywhere; naga asks for it by name, since old OpenGL has not.
+    let info = Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16_IN_FLOAT32)
         .validate(&parsed)
         .map_err(|error| format!("{}: {}", module.name, error.emit_to_string(&module.wgsl)))?;
     Ok((parsed, info))

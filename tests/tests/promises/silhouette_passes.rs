@@ -80,7 +80,7 @@ const FAULTS_FROM_FACES: &[Replaced] = &[
 ];
 
 const FAULTS_FROM_A_STREAM: &[Replaced] = &[
-    ("is_lit != faces_light(clip_from_object, image_from_normal, corners[i], across)", "is_lit"),
+    ("is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > 0.0)", "is_lit"),
     ("length_squared > 0.0 && ", ""),
     ("const DRAWN_UNLIT = 2.0;", "const DRAWN_UNLIT = 64.0;"),
     ("corners[0], normal)", "corners[0], -normal)"),

@@ -52,7 +52,8 @@ pub enum StreamPrecision {
     #[default]
     Bits32,
     /// 16 bits: 36 bytes a face. Corners are off by up to 1/2048 of the mesh's half size, and small faces turn with them, so
-    /// edges may be missed.
+    /// both faces at an edge draw it, in case that one of them misses it. Needs a device that unpacks 16-bit floats: all but
+    /// old OpenGL do.
     Bits16,
 }
 

@@ -11,7 +11,7 @@ use crate::report::Scale;
 pub(super) const SILHOUETTE_MAPS: Family = Family {
     name: "silhouette-maps",
     stresses: "Slivers, edges that project to a point, faces seen edge-on, faces of a texel and a plate that sinks onto a \
-               floor, in silhouette maps of both sources: each place where a blocker ends, before nothing or before \
+               floor, in silhouette maps of all sources: each place where a blocker ends, before nothing or before \
                another, must know its silhouette.",
     parameter: "the case's number",
     scale: Scale::Linear,
@@ -23,7 +23,11 @@ const FAMILIES: [Family; 5] =
     [shapes::SLIVERS, projections::POINT_EDGES, counts::EDGE_ON, counts::TEXEL_FACES, contact::CONTACT];
 
 fn cases(effort: &Effort) -> Vec<Case> {
-    let both = [("stages", SilhouetteMapSettings::DEFAULT), ("vertex stage", SilhouetteMapSettings::TAM)];
+    let sources = [
+        ("stages", SilhouetteMapSettings::DEFAULT),
+        ("vertex stage", SilhouetteMapSettings::TAM),
+        ("stream", SilhouetteMapSettings::STREAM),
+    ];
     let of_source = |(source, settings): (&str, SilhouetteMapSettings)| -> Vec<Case> {
         let of_family = |family: &Family| {
             let name = family.name;
@@ -36,7 +40,7 @@ fn cases(effort: &Effort) -> Vec<Case> {
         };
         FAMILIES.iter().flat_map(of_family).collect()
     };
-    let mut cases: Vec<Case> = both.into_iter().flat_map(of_source).collect();
+    let mut cases: Vec<Case> = sources.into_iter().flat_map(of_source).collect();
     cases.iter_mut().enumerate().for_each(|(number, case)| case.at = number as f64);
     cases
 }
