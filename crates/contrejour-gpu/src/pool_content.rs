@@ -110,32 +110,53 @@ impl MeshPool {
 mod tests {
     use std::sync::Arc;
 
-    use contrejour_layout::{ACROSS_ALONE, ACROSS_ALONG, ACROSS_FAN};
+    use contrejour_layout::{ACROSS_ALONE, ACROSS_ALONG, ACROSS_FAN, HALF_STREAM_FACE_WORDS, STREAM_FACE_WORDS};
     use contrejour_mesh::{BuildOptions, TopologyAwareMesh};
     use contrejour_plan::DeviceFacts;
 
     use super::*;
     use crate::pool::PiecePlace;
 
-    #[test]
-    fn a_piece_without_all_edges_has_no_fans_and_asks_none() {
+    fn book_of_three() -> MeshPool {
         let positions = [[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.5, 0.0], [0.0, 0.5, 1.0], [-1.0, 0.5, 0.0]];
         let pages = [[0, 1, 2], [1, 0, 3], [0, 1, 4]];
         let mesh = TopologyAwareMesh::build(&positions, &pages, &BuildOptions::default()).expect("a good mesh");
         let mut pool = MeshPool::default();
         pool.add(Arc::new(mesh), &DeviceFacts::default()).expect("it fits");
+        pool
+    }
+
+    fn words(pool: &MeshPool, kind: BufferKind, piece: MeshPiece) -> Vec<u32> {
+        let mut words: Vec<u32> = Vec::new();
+        let placed = PlacedPiece { slot: 0, piece, place: PiecePlace::default() };
+        pool.write_piece(kind, &placed, |_, bytes| words.extend(bytemuck::pod_collect_to_vec::<u8, u32>(bytes)));
+        words
+    }
+
+    #[test]
+    fn a_piece_without_all_edges_has_no_fans_and_asks_none() {
+        let pool = book_of_three();
         let whole = MeshPiece::whole(0, &pool.facts().0[0]);
         // All faces fit the page, and of the edges a part.
         let cut = MeshPiece { other_edges: 1, ..whole };
-        let words = |kind, piece| {
-            let mut words: Vec<u32> = Vec::new();
-            let placed = PlacedPiece { slot: 0, piece, place: PiecePlace::default() };
-            pool.write_piece(kind, &placed, |_, bytes| words.extend(bytemuck::pod_collect_to_vec::<u8, u32>(bytes)));
-            words
-        };
-        let is_fan = |word: &u32| word & (ACROSS_ALONG | ACROSS_ALONE) == ACROSS_FAN;
-        let asking = |piece| words(BufferKind::FaceNeighbours, piece).iter().filter(|word| is_fan(word)).count();
-        assert_eq!((asking(whole), words(BufferKind::EdgeFans, whole).len()), (1, 4));
-        assert_eq!((asking(cut), words(BufferKind::EdgeFans, cut).len()), (0, 0));
+        let is_fan = |word: &&u32| *word & (ACROSS_ALONG | ACROSS_ALONE) == ACROSS_FAN;
+        let asking = |piece| words(&pool, BufferKind::FaceNeighbours, piece).iter().filter(is_fan).count();
+        assert_eq!((asking(whole), words(&pool, BufferKind::EdgeFans, whole).len()), (1, 4));
+        assert_eq!((asking(cut), words(&pool, BufferKind::EdgeFans, cut).len()), (0, 0));
+    }
+
+    #[test]
+    fn a_piece_has_its_part_of_a_stream() {
+        let pool = book_of_three();
+        let whole = MeshPiece::whole(0, &pool.facts().0[0]);
+        let last_two = MeshPiece { first_face: 1, faces: 2, ..whole };
+        for (kind, face_words) in
+            [(BufferKind::StreamFaces, STREAM_FACE_WORDS), (BufferKind::HalfStreamFaces, HALF_STREAM_FACE_WORDS)]
+        {
+            let all = words(&pool, kind, whole);
+            assert_eq!(all.len(), 3 * face_words as usize);
+            assert!(all.chunks(face_words as usize).all(|face| face.iter().any(|word| *word != 0)));
+            assert_eq!(words(&pool, kind, last_two), all[face_words as usize..]);
+        }
     }
 }
