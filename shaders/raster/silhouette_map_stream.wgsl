@@ -11,9 +11,10 @@
 @group(0) @binding(4) var<storage, read> stream_faces: array<u32>;
 @group(1) @binding(0) var shadow_depth: texture_2d<f32>;
 
-// Squared lengths of normals across, between those that tell of different things: 1, 2 and 4.
-const DRAWN_UNLIT = 2.0;
-const ALWAYS_DRAWN = 8.0;
+// Normals across are 1, 2 or 4 long. Above these squared lengths the face draws the edge also while it is unlit, and whatever
+// the light.
+const UNLIT_ABOVE = 2.0;
+const ALWAYS_ABOVE = 8.0;
 
 @vertex
 fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVertex {
@@ -38,15 +39,17 @@ fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVert
         // Its length tells who draws the edge.
         let across = vectors[3u + i];
         let length_squared = dot(across, across);
-        let draws = length_squared > DRAWN_UNLIT || (length_squared > 0.0 && own_facing > LEAST_FACING_DRAWN);
+        let draws = length_squared > UNLIT_ABOVE || (length_squared > 0.0 && own_facing > LEAST_FACING_DRAWN);
         let differs = is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > 0.0);
-        if !draws || (length_squared < ALWAYS_DRAWN && !differs) {
+        if !draws || (length_squared < ALWAYS_ABOVE && !differs) {
             continue;
         }
         let begin = corners[i];
         let end = corners[(i + 1u) % 3u];
         let runs_up = is_lower(begin, end);
-        add_edge(&outline, i, clip_from_object, select(end, begin, runs_up), select(begin, end, runs_up), is_lit == runs_up);
+        let low = select(end, begin, runs_up);
+        let high = select(begin, end, runs_up);
+        add_edge(&outline, i, clip_from_object, low, high, is_lit == runs_up);
     }
     return silhouette_vertex(outline, clip_from_object, corners, index % 3u);
 }

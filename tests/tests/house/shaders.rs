@@ -5,7 +5,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 use crate::modules::{self, Module, parse};
 
-/// Validates without any optional capability, as WebGPU's baseline has none.
+/// Validates with what WebGPU's baseline has, and no optional capability.
 fn validate(module: &Module) -> Result<(naga::Module, ModuleInfo), String> {
     let parsed = parse(module);
     // WGSL has `unpack2x16float` everywhere; naga asks for it by name, since old OpenGL has not.

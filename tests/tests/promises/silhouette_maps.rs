@@ -1,15 +1,16 @@
-//! Silhouette maps are as defined, and both sources leave the same one: the compute stages, which are exact, and the vertex
-//! stage, as topology-aware meshes do it.
+//! Silhouette maps are as defined, and all sources leave the same one: the compute stages, which are exact, and the vertex
+//! stage, as topology-aware meshes do it, by what is across the edges of faces or by a stream of normals.
 //!
 //! For every mesh under eight lights, two of them wide, each texel holds depth and signed distance of the nearest silhouette that the light
 //! reaches, as worked out in 64-bit floats from the stages' quads: the distance up to [`DISTANCE_ROUNDING`], the depth up to
 //! [`DEPTH_ROUNDING`]. Two kinds of texels are left open, and counted:
 //!
-//! - **Ties**, for both sources: silhouettes that are equally far, and those on the brink of where distances are drawn, or as
+//! - **Ties**, for all sources: silhouettes that are equally far, and those on the brink of where distances are drawn, or as
 //!   deep as what hides them. Rounding decides, and each outcome is as good.
 //! - **By facing**, for the vertex stage: texels within reach of an edge at a face that the light sees edge-on up to
 //!   [`FACING_ROUNDING`], since that stage asks in floats, or of an edge beside faces without area that have no sign, which it
-//!   draws whatever the light or not at all. [`MOST_BY_FACING`] of a mesh's texels may be such.
+//!   draws whatever the light or not at all. For a stream also of an edge of more than two faces, which it asks in pairs.
+//!   [`MOST_BY_FACING`] of a mesh's texels may be such; of a stream's where the mesh has no edge of more than two.
 
 use std::collections::HashSet;
 
@@ -53,8 +54,8 @@ pub fn trials() -> Vec<Trial> {
     let mut trials: Vec<_> = meshes::all()
         .into_iter()
         .map(|mesh| {
-            let name = format!("silhouette_maps::as_defined_from_both_sources::{}", mesh.name);
-            gpu_trial(name, move |gpu| as_defined_from_both_sources(gpu, &mesh))
+            let name = format!("silhouette_maps::as_defined_from_all_sources::{}", mesh.name);
+            gpu_trial(name, move |gpu| as_defined_from_all_sources(gpu, &mesh))
         })
         .collect();
     trials.push(float_blending_trial(
@@ -88,7 +89,7 @@ pub struct Counts {
     by_facing: usize,
 }
 
-fn as_defined_from_both_sources(gpu: &Gpu, mesh: &TestMesh) -> Outcome {
+fn as_defined_from_all_sources(gpu: &Gpu, mesh: &TestMesh) -> Outcome {
     let mut drawn = SOURCES.map(|source| Drawn::new(gpu, mesh, settings(source, MAP_SIZE)));
     let all = lights(mesh);
     let mut counts: [Counts; 3] = Default::default();

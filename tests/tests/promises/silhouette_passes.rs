@@ -82,7 +82,7 @@ const FAULTS_FROM_FACES: &[Replaced] = &[
 const FAULTS_FROM_A_STREAM: &[Replaced] = &[
     ("is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > 0.0)", "is_lit"),
     ("length_squared > 0.0 && ", ""),
-    ("const DRAWN_UNLIT = 2.0;", "const DRAWN_UNLIT = 64.0;"),
+    ("const UNLIT_ABOVE = 2.0;", "const UNLIT_ABOVE = 64.0;"),
     ("corners[0], normal)", "corners[0], -normal)"),
     ("let across = vectors[3u + i];", "let across = vectors[3u + (i + 1u) % 3u];"),
     ("cross(near[1], near[2]), cross(near[2], near[0])", "cross(near[2], near[0]), cross(near[1], near[2])"),

@@ -61,12 +61,12 @@ pub struct TamStream {
     pub never_silhouette_faces: u32,
     /// Faces that were left out since they have no area, or name a vertex twice. Their neighbours know each other.
     pub faces_without_area: u32,
-    /// Edges that may be drawn though they are not in the silhouette.
+    /// Edges that may be drawn though they are no outline, which has all its faces on one side.
     ///
     /// The faces of an edge of three and more are asked in pairs, of two that run along it in opposite ways where there
-    /// are such, and that are not the two sides of one. The answers of two pairs may cancel, where their number is even and
-    /// they do not lie in the same planes, which a vertex stage can't know. So it is beside a face without area that has no
-    /// sign to take: such an edge is drawn whatever the light.
+    /// are such, and that are not the two sides of one. Pairs that do not lie in the same planes, and an odd
+    /// face, may lie on different sides, which a vertex stage can't know. So it is beside a face without area that has no sign
+    /// to take: such an edge is drawn whatever the light.
     pub overdrawn_edges: u32,
 }
 

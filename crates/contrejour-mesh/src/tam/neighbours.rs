@@ -141,11 +141,11 @@ pub(super) fn has_area(mesh: &TopologyAwareMesh) -> Vec<bool> {
     has_area
 }
 
-/// Edges of several pairs whose answers can cancel, or with a face that has no sign to take. An odd number of signs never
-/// adds up to zero, and pairs of the same planes have the same answer.
+/// Edges of more than two faces, but where all pairs lie in the same planes, so that they have the same answer; and edges with
+/// a face that has no sign to take.
 pub(super) fn overdrawn_edges(mesh: &TopologyAwareMesh) -> u32 {
     let candidates = &mesh.edges[..mesh.candidate_edge_count as usize];
-    let can_cancel = |edge: &Edge, words: &[u32]| {
+    let disagrees = |edge: &Edge, words: &[u32]| {
         let third = |word| third_vertex(mesh, edge, word);
         let planes = |[one, other]: [u32; 2]| {
             let mut planes = [third(one), third(other)];
@@ -154,11 +154,11 @@ pub(super) fn overdrawn_edges(mesh: &TopologyAwareMesh) -> u32 {
         };
         let mut planes_of_pairs = pairs(words, third).into_iter().map(planes);
         let first = planes_of_pairs.next();
-        words.len().is_multiple_of(2) && planes_of_pairs.any(|planes| Some(planes) != first)
+        !words.len().is_multiple_of(2) || planes_of_pairs.any(|planes| Some(planes) != first)
     };
     let is_overdrawn = |edge: &&Edge| {
         let words = incidence_words(edge, &mesh.incidences);
-        words.iter().any(|word| word >> 1 == UNLIT_FACE) || (words.len() > 2 && can_cancel(edge, words))
+        words.iter().any(|word| word >> 1 == UNLIT_FACE) || (words.len() > 2 && disagrees(edge, words))
     };
     candidates.iter().filter(is_overdrawn).count() as u32
 }

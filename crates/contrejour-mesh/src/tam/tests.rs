@@ -203,14 +203,14 @@ fn many_faces_at_an_edge_draw_it_rather_too_often() {
         let triangles: Vec<_> = (0..count).map(|index| [index % 2, 1 - index % 2, 2 + index]).collect();
         let mesh = mesh(&positions, &triangles, Motion::Rigid);
         let stream = stream(&mesh);
-        assert_eq!(stream.overdrawn_edges, u32::from(count == 4));
+        assert_eq!(stream.overdrawn_edges, 1);
         let mut more = 0;
         for light in lights() {
             let (said, defined) = (said_by_faces(&stream, light), by_definition(&mesh, light));
             assert!(defined.iter().all(|edge| said.contains(edge)), "{count} faces, light at {light}");
             more += said.len() - defined.len();
         }
-        // An odd number of signs never adds up to zero.
+        // An odd number of signs never adds up to zero, so here the edge is in the silhouette, if not in the outline.
         assert_eq!(more > 0, count == 4, "{count} faces");
     }
 }

@@ -38,8 +38,8 @@ pub enum SilhouetteSource {
     /// drawn larger.
     Faces,
     /// The vertex stage too, from a stream that holds the normals across the edges of each face at rest: that of Valient and
-    /// Bujnak (2005). Faces whose positions the caller brings are in the shadow map alone, and edges of more than two faces
-    /// may be drawn without being in a silhouette.
+    /// Bujnak (2005). Casters that bring positions of their own, such as skins and morphs, are in the shadow map alone, and
+    /// edges of more than two faces may be drawn without being an outline.
     Stream(StreamPrecision),
 }
 
@@ -51,8 +51,8 @@ pub enum StreamPrecision {
     /// 32 bits: 72 bytes a face.
     #[default]
     Bits32,
-    /// 16 bits: 36 bytes a face. Corners are off by up to 1/2048 of the mesh's half size, and small faces turn with them, so
-    /// both faces at an edge draw it, in case that one of them misses it. Needs a device that unpacks 16-bit floats: all but
+    /// 16 bits: 36 bytes a face. Coordinates are off by up to 1/2048 of themselves, from the mesh's origin or, where that is far
+    /// away, from its middle. Small faces turn with them, so both faces at an edge draw it, in case that one of them misses it. Needs a device that unpacks 16-bit floats: all but
     /// old OpenGL do.
     Bits16,
 }
