@@ -68,6 +68,13 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     if let Some(folder) = &arguments.views {
         write_views(&mut renderer, folder, &mut written)?;
     }
+    let at_rest = renderer.casters_left_out_of_streams();
+    if at_rest > 0 {
+        warn(&format!(
+            "{at_rest} of the casters move vertex by vertex and silhouette-map-stream holds meshes at rest: their shadows have \
+             the shadow map's steps; silhouette-map and silhouette-map-tam follow them"
+        ));
+    }
     let measurements = renderer.measurements()?;
     print(&if arguments.json { json(&measurements, &written)? } else { summary(&measurements, &written) })
 }

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use contrejour_gpu::{LightHandle, PassTimer, Shadows};
-use contrejour_plan::{Eye, Light};
+use contrejour_plan::{Eye, FramePlan, Light, Reason};
 use contrejour_scene::{Camera, Scene};
 use cpu_time::ThreadTime;
 use glam::DMat4;
@@ -292,6 +292,16 @@ impl Renderer {
     /// [`ReadError`] when the device fails.
     pub fn picture(&self) -> Result<RgbaImage, ReadError> {
         read_picture(&self.gpu, &self.picture)
+    }
+
+    /// How many casters bring positions of their own under a light that reads silhouettes from a stream of meshes at rest: they
+    /// are in its shadow map alone, with steps.
+    pub fn casters_left_out_of_streams(&self) -> usize {
+        let plans = self.lights.handles.iter().flatten().filter_map(|light| self.cast.shadows.plan(*light));
+        let left_out = |plan: &FramePlan| {
+            plan.left_out.iter().filter(|left_out| left_out.reason == Reason::StreamIsAtRest).count()
+        };
+        plans.map(left_out).max().unwrap_or(0)
     }
 
     /// What the frames so far cost; waits for the last of them.

@@ -32,6 +32,7 @@ pub fn trials() -> Vec<Trial> {
         gpu_trial("render::a_picture_has_the_size_asked_for", a_picture_has_the_size_asked_for),
         gpu_trial("render::an_orbit_is_a_picture_a_frame", an_orbit_is_a_picture_a_frame),
         gpu_trial("render::an_animation_is_a_picture_a_frame", an_animation_is_a_picture_a_frame),
+        gpu_trial("render::a_stream_tells_what_it_leaves_out", a_stream_tells_what_it_leaves_out),
         gpu_trial("render::what_a_mask_cuts_is_not_there", what_a_mask_cuts_is_not_there),
         gpu_trial("render::a_camera_of_the_file_sees_it", a_camera_of_the_file_sees_it),
         gpu_trial("render::cameras_and_lights_go_with_their_nodes", cameras_and_lights_go_with_their_nodes),
@@ -124,6 +125,21 @@ fn an_animation_is_a_picture_a_frame() -> Outcome {
         return Err(format!("the stage that deforms is not timed: {report}"));
     }
     if pictures.len() == names.len() { Ok(()) } else { Err("the model does not move".into()) }
+}
+
+fn a_stream_tells_what_it_leaves_out() -> Outcome {
+    let folder = Folder::with(&[("face.gltf", &widening_face())]);
+    let render = "render face.gltf --size 64x40 --map-size 128 -o face.png --technique silhouette-map";
+    for (rest, is_told) in
+        [("-stream --animation widen --time 1", true), ("-stream", false), (" --animation widen", false)]
+    {
+        let run = folder.run(&format!("{render}{rest}"));
+        run.ends_with(0)?;
+        if run.told().contains("silhouette-map-stream holds meshes at rest") != is_told {
+            return Err(format!("{rest}: {}", run.told()));
+        }
+    }
+    Ok(())
 }
 
 /// A face whose alpha is above the cutoff is as one without a mask, in motion too, but for its silhouette; below the cutoff
