@@ -168,6 +168,7 @@ mod tests {
         let told = |stages| told(&[(512, [Some(stages), Some(4.0), Some(6.0)])]);
         assert!(told(1.5).starts_with("At 512 texels the silhouette map takes 1.50 times as long"));
         assert!(told(1.5).contains("4.00 times where the vertex stage does, and 6.00 times where a stream"));
+        assert!(told(1.5).contains("tells it; the paper's takes about 5 times"));
         assert_ne!(told(1.5), told(1.6));
         assert!(super::told(&[(512, [None, Some(1.0), Some(1.0)])]).contains("too fast"));
     }
