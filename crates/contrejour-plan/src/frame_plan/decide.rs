@@ -17,16 +17,6 @@ const WITHOUT_MAP_PASS: [Reason; 4] = [
     Reason::TechniqueHasNoMoments,
 ];
 
-/// The passes that fill silhouette maps, by source: stages, faces, a stream of 32 bits and one of 16.
-const SILHOUETTES_BY_DEPTH: [Pass; 4] =
-    [Pass::SilhouetteMap, Pass::SilhouetteMapTam, Pass::SilhouetteMapStream, Pass::SilhouetteMapHalfStream];
-const SILHOUETTES_BY_BLENDING: [Pass; 4] = [
-    Pass::BlendedSilhouetteMap,
-    Pass::BlendedSilhouetteMapTam,
-    Pass::BlendedSilhouetteMapStream,
-    Pass::BlendedSilhouetteMapHalfStream,
-];
-
 /// What was left out so far.
 #[derive(Default)]
 pub(super) struct LeftOutList(pub Vec<LeftOut>);
@@ -219,21 +209,33 @@ fn silhouette_pass(input: &PlanInput<'_>, silhouettes: &SilhouetteMapSettings, l
         SilhouetteWinner::ByBlending if blends_depth(input) => (true, Reason::BlendingAskedFor),
         SilhouetteWinner::ByBlending => (false, Reason::DeviceBlendsNoFloats),
     };
-    let (same_winner, others) = if is_blended {
-        (SILHOUETTES_BY_BLENDING, SILHOUETTES_BY_DEPTH)
-    } else {
-        (SILHOUETTES_BY_DEPTH, SILHOUETTES_BY_BLENDING)
-    };
-    let chosen = same_winner[match silhouettes.source {
-        SilhouetteSource::Stages => 0,
-        SilhouetteSource::Faces => 1,
-        SilhouetteSource::Stream(StreamPrecision::Bits32) => 2,
-        SilhouetteSource::Stream(StreamPrecision::Bits16) => 3,
-    }];
-    left_out.all(others.into_iter().map(Omitted::Pass), not_otherwise);
-    let not_chosen = same_winner.into_iter().filter(|pass| *pass != chosen);
-    left_out.all(not_chosen.map(Omitted::Pass), finds_them(silhouettes.source));
-    chosen
+    let mut ways: [fn(SilhouetteSource) -> Pass; 2] = [pass_by_depth, pass_by_blending];
+    if is_blended {
+        ways.reverse();
+    }
+    let [pass, other_pass] = ways;
+    left_out.all(SilhouetteSource::ALL.map(other_pass).map(Omitted::Pass).into_iter(), not_otherwise);
+    let not_asked = SilhouetteSource::ALL.into_iter().filter(|source| *source != silhouettes.source);
+    left_out.all(not_asked.map(pass).map(Omitted::Pass), finds_them(silhouettes.source));
+    pass(silhouettes.source)
+}
+
+fn pass_by_depth(source: SilhouetteSource) -> Pass {
+    match source {
+        SilhouetteSource::Stages => Pass::SilhouetteMap,
+        SilhouetteSource::Faces => Pass::SilhouetteMapTam,
+        SilhouetteSource::Stream(StreamPrecision::Bits32) => Pass::SilhouetteMapStream,
+        SilhouetteSource::Stream(StreamPrecision::Bits16) => Pass::SilhouetteMapHalfStream,
+    }
+}
+
+fn pass_by_blending(source: SilhouetteSource) -> Pass {
+    match source {
+        SilhouetteSource::Stages => Pass::BlendedSilhouetteMap,
+        SilhouetteSource::Faces => Pass::BlendedSilhouetteMapTam,
+        SilhouetteSource::Stream(StreamPrecision::Bits32) => Pass::BlendedSilhouetteMapStream,
+        SilhouetteSource::Stream(StreamPrecision::Bits16) => Pass::BlendedSilhouetteMapHalfStream,
+    }
 }
 
 fn finds_them(source: SilhouetteSource) -> Reason {
@@ -286,7 +288,7 @@ pub(super) fn note_without_silhouette(
     }
     let reads = |kind| passes.iter().any(|pass| pass.buffers().contains(&kind));
     if reads(BufferKind::StreamFaces) || reads(BufferKind::HalfStreamFaces) {
-        let moved = scene.casters.iter().filter(|caster| has_faces(scene, caster) && !caster.has_planes());
+        let moved = opaque_casters(scene).filter(|caster| !caster.has_planes());
         left_out.all(moved.map(silhouette), Reason::StreamIsAtRest);
     }
 }
@@ -308,7 +310,11 @@ fn nothing_casts(scene: &SceneFacts) -> bool {
 
 /// Whether something casts that no mask cuts.
 fn has_silhouettes(scene: &SceneFacts) -> bool {
-    scene.casters.iter().any(|caster| has_faces(scene, caster) && !scene.meshes[caster.mesh].is_masked)
+    opaque_casters(scene).next().is_some()
+}
+
+fn opaque_casters(scene: &SceneFacts) -> impl Iterator<Item = &CasterFacts> {
+    scene.casters.iter().filter(|caster| has_faces(scene, caster) && !scene.meshes[caster.mesh].is_masked)
 }
 
 fn masked_casters(scene: &SceneFacts) -> impl Iterator<Item = &CasterFacts> {

@@ -57,7 +57,9 @@ impl fmt::Display for ParameterRange {
             Self::Kernel => {
                 formatter.write_str(&GaussianKernel::ALL.map(|kernel| kernel.texels().to_string()).join(" or "))
             }
-            Self::StreamBits => formatter.write_str(&STREAM_PRECISIONS.map(|(bits, _)| bits.to_string()).join(" or ")),
+            Self::StreamBits => {
+                formatter.write_str(&StreamPrecision::ALL.map(|precision| precision.bits().to_string()).join(" or "))
+            }
         }
     }
 }
@@ -82,7 +84,7 @@ impl Slot<'_> {
             Self::Width(SmoothieWidth::Ndc(width)) => width.to_string().parse().unwrap_or((*width).into()),
             Self::Width(SmoothieWidth::FromLightSize) => return None,
             Self::Blending(winner) => f64::from(u8::from(**winner == SilhouetteWinner::ByBlending)),
-            Self::StreamBits(precision) => stream_bits(**precision).into(),
+            Self::StreamBits(precision) => precision.bits().into(),
         })
     }
 
@@ -104,17 +106,8 @@ fn kernel(value: f64) -> Option<GaussianKernel> {
     GaussianKernel::ALL.into_iter().find(|kernel| f64::from(kernel.texels()) == value)
 }
 
-const STREAM_PRECISIONS: [(u8, StreamPrecision); 2] = [(16, StreamPrecision::Bits16), (32, StreamPrecision::Bits32)];
-
 fn stream_precision(value: f64) -> Option<StreamPrecision> {
-    STREAM_PRECISIONS.into_iter().find(|(bits, _)| f64::from(*bits) == value).map(|(_, precision)| precision)
-}
-
-fn stream_bits(precision: StreamPrecision) -> u8 {
-    match precision {
-        StreamPrecision::Bits16 => 16,
-        StreamPrecision::Bits32 => 32,
-    }
+    StreamPrecision::ALL.into_iter().find(|precision| f64::from(precision.bits()) == value)
 }
 
 const NDC: ParameterRange = ParameterRange::Above(0.0, 2.0);

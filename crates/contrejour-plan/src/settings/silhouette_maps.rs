@@ -51,10 +51,29 @@ pub enum StreamPrecision {
     /// 32 bits: 72 bytes a face.
     #[default]
     Bits32,
-    /// 16 bits: 36 bytes a face. Coordinates are off by up to 1/2048 of themselves, from the mesh's origin or, where that is far
-    /// away, from its middle. Small faces turn with them, so both faces at an edge draw it, in case that one of them misses it. Needs a device that unpacks 16-bit floats: all but
-    /// old OpenGL do.
+    /// 16 bits: 36 bytes a face. Coordinates are off by up to 1/2048 of themselves, from the mesh's origin or, where that is
+    /// far away, from its middle. Small faces turn with them, so both faces at an edge draw it, in case that one of them
+    /// misses it. Needs a device that unpacks 16-bit floats: all but old OpenGL do.
     Bits16,
+}
+
+impl StreamPrecision {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Bits16, Self::Bits32];
+
+    /// How many bits a float has.
+    pub const fn bits(self) -> u8 {
+        match self {
+            Self::Bits16 => 16,
+            Self::Bits32 => 32,
+        }
+    }
+}
+
+impl SilhouetteSource {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Stages, Self::Faces, Self::Stream(StreamPrecision::Bits32), Self::Stream(StreamPrecision::Bits16)];
 }
 
 /// How the nearest of the silhouettes around a texel wins.

@@ -76,3 +76,14 @@ fn a_light_that_does_nothing_has_records_where_others_have_seats() {
     assert!(plan.stages.is_empty() && plan.passes.is_empty());
     assert_eq!(bytes(&plan, BufferKind::LightView), Some(256));
 }
+
+#[test]
+fn what_the_caller_moves_too_lacks_a_silhouette_once() {
+    let mut case = Case::new(leaves_and_cube());
+    case.settings.technique = Technique::SilhouetteMap(SilhouetteMapSettings::STREAM);
+    case.scene.casters[1].own_position_words = 24;
+    let plan = case.good();
+    let leaves = Omitted::Silhouette("leaves".into());
+    let reasons = plan.left_out.iter().filter(|left_out| left_out.what == leaves).map(|left_out| left_out.reason);
+    assert_eq!(reasons.collect::<Vec<_>>(), [Reason::MaskCutsIt]);
+}
