@@ -86,9 +86,8 @@ impl Renderer {
             if plan.has_stage(Stage::DetectSilhouette) {
                 looking.push(light);
             }
-            let pass = plan.passes.iter().copied().find(|pass| pass.fills_silhouette_map());
             let map = cast.shadows.maps(light).silhouette_map;
-            maps.extend(pass.zip(map).map(|(pass, map)| (light, pass, map.width())));
+            maps.extend(plan.silhouette_map_pass().zip(map).map(|(pass, map)| (light, pass, map.width())));
         }
         let counter = TriangleCounter::new(gpu);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

@@ -179,6 +179,11 @@ impl FramePlan {
         self.stages.contains(&stage)
     }
 
+    /// The pass that fills the silhouette map, where the light has one.
+    pub fn silhouette_map_pass(&self) -> Option<Pass> {
+        self.passes.iter().copied().find(|pass| pass.fills_silhouette_map())
+    }
+
     /// Whether the frame runs a pass, where it is [drawn](Self::is_drawn).
     pub fn has_pass(&self, pass: Pass) -> bool {
         self.passes.contains(&pass)

@@ -126,11 +126,7 @@ impl Contestant {
         let JudgedScene { gpu, casters, local, eye_local, .. } = &*self.scene;
         self.cast.shadows.redraw();
         self.cast.prepare(gpu, casters, [(self.light, &local.light(light))], eye_local)?;
-        let plan = self.cast.shadows.plan(self.light);
-        let Some(pass) = plan.and_then(|plan| plan.passes.iter().copied().find(|pass| pass.fills_silhouette_map()))
-        else {
-            return Ok(None);
-        };
+        let Some(pass) = self.plan().and_then(FramePlan::silhouette_map_pass) else { return Ok(None) };
         let counter = TriangleCounter::new(gpu);
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("vertices") });
