@@ -72,13 +72,12 @@ impl MeshPool {
             BufferKind::EdgeFans => write(4 * u64::from(place.incidence), bytemuck::cast_slice(&edge_fans(mesh))),
             BufferKind::StreamFaces | BufferKind::HalfStreamFaces => {
                 let precision = if kind == BufferKind::StreamFaces { TamPrecision::Full } else { TamPrecision::Half };
-                // As the matrices expect positions: near 1, so halves hold them.
+                // As the matrices expect positions: near 1, so halves hold them and no record is refused.
                 let NearOne { origin, scale } = pooled.near_one;
                 let stream = TamStream::new(mesh, &TamOptions { origin, scale });
                 let faces = piece.first_face..piece.first_face + piece.faces;
-                if let Ok(records) = stream.records_in_place(faces, precision) {
-                    write(kind.item_bytes() * u64::from(place.face), &records);
-                }
+                let Ok(records) = stream.records_in_place(faces, precision) else { return };
+                write(kind.item_bytes() * u64::from(place.face), &records);
             }
             BufferKind::Edges => {
                 let edges = &mesh.edges[piece.first_edge as usize..][..piece.edges() as usize];
