@@ -134,7 +134,7 @@ fn table(run: &Summary) -> String {
             run.verified_light_frames, run.verified_texels, run.differences
         ));
     }
-    lines.extend(run.stages.iter().map(|stage| format!("  {:<22} {:.3} ms", stage.name, stage.gpu_ms)));
+    lines.extend(run.stages.iter().map(|stage| format!("  {:<34} {:.3} ms", stage.name, stage.gpu_ms)));
     lines.join("\n")
 }
 
