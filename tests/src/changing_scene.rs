@@ -242,20 +242,17 @@ impl<'a> ChangingScene<'a> {
         let Gpu { device, queue, .. } = self.gpu;
         for _ in 0..MAX_FRAMES {
             let mut lists = Vec::new();
-            {
-                let _waiting = self.gpu.waiting();
-                self.shadows.prepare(device, queue).map_err(text)?;
-                let mut encoder = device.create_command_encoder(&Default::default());
-                self.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
-                    let pages = view.buffers(BufferKind::Counters).zip(view.buffers(BufferKind::Silhouettes));
-                    for (counters, silhouettes) in pages {
-                        let copies = [counters, silhouettes].map(|buffer| copy(device, encoder, buffer));
-                        lists.push(((view.light, view.view), copies));
-                    }
-                });
-                queue.submit([encoder.finish()]);
-                self.shadows.wait_for_counters(device).map_err(text)?;
-            }
+            self.shadows.prepare(device, queue).map_err(text)?;
+            let mut encoder = device.create_command_encoder(&Default::default());
+            self.shadows.encode_each(&mut encoder, &mut Untimed, |encoder, view| {
+                let pages = view.buffers(BufferKind::Counters).zip(view.buffers(BufferKind::Silhouettes));
+                for (counters, silhouettes) in pages {
+                    let copies = [counters, silhouettes].map(|buffer| copy(device, encoder, buffer));
+                    lists.push(((view.light, view.view), copies));
+                }
+            });
+            queue.submit([encoder.finish()]);
+            self.shadows.wait_for_counters(device).map_err(text)?;
             if self.shadows.is_complete() {
                 // Pages one after the other.
                 let read = |page: &(_, [wgpu::Buffer; 2])| {

@@ -1,8 +1,8 @@
-//! One device for all tests of a binary.
+//! Devices for tests: one for each thread that runs them.
 
+use std::cell::OnceCell;
 use std::env;
 use std::fmt::Display;
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use contrejour_gpu::{Shadows, Untimed};
 use wgpu::util::DeviceExt;
@@ -22,27 +22,39 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Name of the adapter and of its backend.
     pub adapter: String,
-    waiting: Mutex<()>,
 }
 
-/// The device with WebGPU's default limits and no optional feature.
+/// A device that is there for as long as its thread, or why there is none.
+type Kept = Result<&'static Gpu, &'static str>;
+
+/// The thread's device with WebGPU's default limits and no optional feature.
+///
+/// A thread has its own so that none waits for another's work, and since a wait of one thread may take over another's
+/// callback and return that other's wait before the callback has run.
 ///
 /// # Errors
 ///
 /// Why there is none, in one line.
 pub fn gpu() -> Result<&'static Gpu, &'static str> {
-    static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
-    GPU.get_or_init(|| open(wgpu::Features::empty())).as_ref().map_err(String::as_str)
+    thread_local!(static GPU: OnceCell<Kept> = const { OnceCell::new() });
+    GPU.with(|gpu| *gpu.get_or_init(|| kept(open(wgpu::Features::empty()))))
 }
 
-/// The device that also blends 32-bit floats.
+/// The thread's device that also blends 32-bit floats.
 ///
 /// # Errors
 ///
 /// Why there is none, in one line; that an adapter has no such feature is a normal reason.
 pub fn gpu_blending_floats() -> Result<&'static Gpu, &'static str> {
-    static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
-    GPU.get_or_init(|| open(wgpu::Features::FLOAT32_BLENDABLE)).as_ref().map_err(String::as_str)
+    thread_local!(static GPU: OnceCell<Kept> = const { OnceCell::new() });
+    GPU.with(|gpu| *gpu.get_or_init(|| kept(open(wgpu::Features::FLOAT32_BLENDABLE))))
+}
+
+fn kept(opened: Result<Gpu, String>) -> Kept {
+    match opened {
+        Ok(gpu) => Ok(Box::leak(Box::new(gpu))),
+        Err(reason) => Err(reason.leak()),
+    }
 }
 
 /// A device that no other test uses, so that its counters tell of one test alone.
@@ -122,7 +134,7 @@ fn open_with(features: wgpu::Features, limits: impl FnOnce(&wgpu::Limits) -> wgp
     };
     let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
         .map_err(|error| format!("no device on {}: {}", info.name, text(error)))?;
-    Ok(Gpu { device, queue, adapter: format!("{} ({})", info.name, info.backend), waiting: Mutex::new(()) })
+    Ok(Gpu { device, queue, adapter: format!("{} ({})", info.name, info.backend) })
 }
 
 fn text(error: impl Display) -> String {
@@ -137,13 +149,6 @@ fn check_adapter(name: &str, wanted: Option<&str>) -> Result<(), String> {
 }
 
 impl Gpu {
-    /// Held by the one test that waits for the device. A wait of one thread may take over another's callback and return
-    /// that other's wait before the callback has run.
-    pub fn waiting(&self) -> MutexGuard<'_, ()> {
-        // A test that failed while it waited leaves nothing behind.
-        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// A buffer that holds the bytes and, after them, zeros up to 64 bytes: a buffer must hold at least one record.
     pub fn upload(&self, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         let mut contents = bytes.to_vec();
@@ -200,7 +205,6 @@ impl Gpu {
         submission: wgpu::SubmissionIndex,
         read: impl FnOnce(&[u8]) -> T,
     ) -> T {
-        let _waiting = self.waiting();
         readable.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("the buffer can be mapped"));
         let poll = wgpu::PollType::Wait { submission_index: Some(submission), timeout: None };
         self.device.poll(poll).expect("the device works");
@@ -215,7 +219,6 @@ impl Gpu {
     ///
     /// When the device is lost.
     pub fn map(&self, readable: &wgpu::Buffer) -> Vec<u8> {
-        let _waiting = self.waiting();
         readable.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("a fresh buffer can be mapped"));
         self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
         readable.get_mapped_range(..).expect("the buffer is mapped").to_vec()
@@ -236,7 +239,6 @@ pub fn draw_whole(
     shadows: &mut Shadows,
     mut before: impl FnMut(&mut wgpu::CommandEncoder),
 ) -> Result<u32, String> {
-    let _waiting = gpu.waiting();
     let mut redone = None;
     for _ in 0..MAX_FRAMES {
         shadows.prepare(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;

@@ -132,7 +132,6 @@ impl<'a> Pipeline<'a> {
     ///
     /// What the library refuses.
     pub fn frame(&mut self, light: &Light) -> Result<Counters, String> {
-        let _waiting = self.gpu.waiting();
         let commands = self.record(light)?;
         let Gpu { device, queue, .. } = self.gpu;
         queue.submit([commands]);

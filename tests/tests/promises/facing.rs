@@ -112,13 +112,11 @@ fn lit_words_of_device(
     let options = ShadowOptions { outputs: Outputs::Silhouettes, ..Default::default() };
     let light = shadows.add_light(&caster.light.light(), &options).map_err(|error| error.to_string())?;
 
-    let waiting = gpu.waiting();
     shadows.prepare(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     shadows.encode(&mut encoder, &mut Untimed);
     gpu.queue.submit([encoder.finish()]);
     let counters = shadows.wait_for_counters(&gpu.device).map_err(|error| error.to_string())?;
-    drop(waiting);
     let lit = shadows.buffer(BufferKind::Lit).ok_or("a frame with faces has lit bits")?;
     let words = gpu.read_part(lit, word_count(caster));
     shadows.remove_light(light).map_err(|error| error.to_string())?;

@@ -153,13 +153,11 @@ fn planes_come_with_the_mesh(gpu: &Gpu) -> Outcome {
     for (positions, expected) in takes_turns {
         let caster = CasterInput { mesh, world_from_object: DMat4::IDENTITY, positions: positions.clone() };
         let caster = shadows.add_caster(&caster).map_err(|error| error.to_string())?;
-        let waiting = gpu.waiting();
         shadows.prepare(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         shadows.encode(&mut encoder, &mut Untimed);
         gpu.queue.submit([encoder.finish()]);
         shadows.wait_for_counters(&gpu.device).map_err(|error| error.to_string())?;
-        drop(waiting);
         let lit = shadows.buffer(BufferKind::Lit).ok_or("a frame with a face has lit bits")?;
         let found: u32 = gpu.read_part(lit, 1)[0];
         if found != expected {
