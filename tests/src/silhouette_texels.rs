@@ -14,13 +14,27 @@ pub struct SilhouetteTexel {
     pub signed_distance: f64,
 }
 
+/// The same by definition, and how rounding may move it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// What a texel holds.
+    pub texel: SilhouetteTexel,
+    /// How depth changes along the silhouette. Unit: depth a texel.
+    pub depth_per_texel: f64,
+    /// Whether the silhouette's nearest point is where the view's nearest or farthest depth cuts it off: an edge that runs
+    /// along that depth is cut anywhere.
+    pub is_cut_by_depth: bool,
+}
+
 /// Everything that a texel may hold, but for rounding.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Expected {
     /// What may win, the nearest first.
-    pub candidates: Vec<SilhouetteTexel>,
+    pub candidates: Vec<Candidate>,
     /// Whether one of them must: else the texel may be empty.
     pub is_certain: bool,
+    /// Whether one that must is so near that the texel is in its band however deep it is.
+    pub is_in_least_band: bool,
 }
 
 /// Distances that differ by less, in texels, are equally far: end points are rounded to 32 bits, and a slant may count as so
@@ -53,10 +67,11 @@ enum Answer {
     No,
 }
 
-struct Candidate {
+struct Contender {
     order: f64,
     answer: Answer,
-    texel: SilhouetteTexel,
+    is_in_least_band: bool,
+    candidate: Candidate,
 }
 
 /// The outline edges at each vertex of each caster, with their directions from there.
@@ -67,7 +82,7 @@ impl Definition<'_> {
     pub fn texels(&self, quads: &[Quad]) -> Vec<Expected> {
         let fans = fans(quads);
         let side = self.record.map_size as usize;
-        let mut all: Vec<Vec<Candidate>> = (0..side * side).map(|_| Vec::new()).collect();
+        let mut all: Vec<Vec<Contender>> = (0..side * side).map(|_| Vec::new()).collect();
         for quad in quads {
             let [low, high] = [quad.low_ndc, quad.high_ndc].map(vector);
             let width = (0..2).map(|end| {
@@ -81,13 +96,13 @@ impl Definition<'_> {
             let rows = last.y.floor().clamp(0.0, most) as usize..=first.y.floor().clamp(0.0, most) as usize;
             for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
                 let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-                all[row * side + column].extend(self.candidate(quad, &fans, place));
+                all[row * side + column].extend(self.contender(quad, &fans, place));
             }
         }
         all.into_iter().map(expected).collect()
     }
 
-    fn candidate(&self, quad: &Quad, fans: &Fans, texel: DVec2) -> Option<Candidate> {
+    fn contender(&self, quad: &Quad, fans: &Fans, texel: DVec2) -> Option<Contender> {
         let texels_per_ndc = 0.5 * f64::from(self.record.map_size);
         let place = (texel / f64::from(self.record.map_size) - 0.5) * DVec2::new(2.0, -2.0);
         let [low, high, outward] = [quad.low_ndc, quad.high_ndc, quad.outward].map(vector);
@@ -118,8 +133,29 @@ impl Definition<'_> {
         }
         let answer = if answers.contains(&Answer::Perhaps) { Answer::Perhaps } else { Answer::Yes };
         let signed_distance = if across > 0.0 { -distance } else { distance };
-        let texel = SilhouetteTexel { depth, signed_distance };
-        Some(Candidate { order: distance + SLANT_PENALTY * slant, answer, texel })
+        let candidate = Candidate {
+            texel: SilhouetteTexel { depth, signed_distance },
+            depth_per_texel: self.depth_per_texel(quad, q),
+            is_cut_by_depth: is_cut(quad, share) && self.is_at_an_end(depth),
+        };
+        let is_in_least_band = distance < f64::from(self.record.width_min_ndc) * texels_per_ndc - TIE_TEXELS;
+        Some(Contender { order: distance + SLANT_PENALTY * slant, answer, is_in_least_band, candidate })
+    }
+
+    /// How depth changes along a quad's edge where it has this `q`.
+    fn depth_per_texel(&self, quad: &Quad, q: f64) -> f64 {
+        let [low, high] = [quad.low_ndc, quad.high_ndc].map(vector);
+        let texels = 0.5 * f64::from(self.record.map_size) * low.distance(high);
+        // Depth is -1 / q, or q.
+        let depth_per_q = if self.record.perspective == 1 { (q * q).recip() } else { 1.0 };
+        let depths = depth_per_q * f64::from(quad.q[1] - quad.q[0]).abs();
+        if depths > 0.0 { depths / texels } else { 0.0 }
+    }
+
+    /// Whether the view ends at this depth.
+    fn is_at_an_end(&self, depth: f64) -> bool {
+        let ends = [self.record.near_depth, self.record.far_depth].map(f64::from);
+        ends.iter().any(|end| (end - depth).abs() <= DEPTH_TIE * depth.abs())
     }
 
     /// Whether what is drawn just outside is deeper, in each texel that rounding may look into.
@@ -183,6 +219,11 @@ fn is_beyond(quad: &Quad, share: f64, offset: DVec2, fans: &Fans) -> bool {
     fan.iter().any(|(edge_id, direction)| *edge_id != quad.edge_id && offset.dot(*direction) > 0.0)
 }
 
+/// Whether a place on a quad's edge is an end where clipping cut it off.
+fn is_cut(quad: &Quad, share: f64) -> bool {
+    (share == 0.0 && quad.own_ends & OWN_END_LOW == 0) || (share == 1.0 && quad.own_ends & OWN_END_HIGH == 0)
+}
+
 /// Whether a difference is positive.
 fn compared(difference: f64, tie: f64) -> Answer {
     match difference {
@@ -192,13 +233,14 @@ fn compared(difference: f64, tie: f64) -> Answer {
     }
 }
 
-fn expected(mut candidates: Vec<Candidate>) -> Expected {
-    candidates.sort_by(|one, other| one.order.total_cmp(&other.order));
-    let certain = candidates.iter().find(|candidate| candidate.answer == Answer::Yes).map(|candidate| candidate.order);
+fn expected(mut contenders: Vec<Contender>) -> Expected {
+    contenders.sort_by(|one, other| one.order.total_cmp(&other.order));
+    let certain = contenders.iter().find(|contender| contender.answer == Answer::Yes).map(|contender| contender.order);
     let farthest = certain.map_or(f64::INFINITY, |order| order + TIE_TEXELS);
     Expected {
-        candidates: candidates.iter().take_while(|it| it.order <= farthest).map(|it| it.texel).collect(),
+        candidates: contenders.iter().take_while(|it| it.order <= farthest).map(|it| it.candidate).collect(),
         is_certain: certain.is_some(),
+        is_in_least_band: contenders.iter().any(|it| it.answer == Answer::Yes && it.is_in_least_band),
     }
 }
 

@@ -3,11 +3,12 @@
 mod shared;
 mod tiny;
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use bytemuck::cast_slice;
 use contrejour_mesh::{BuildOptions, MeshFile, TopologyAwareMesh, TriangleMesh};
 use contrejour_scene::shapes::Shape;
+use contrejour_scene::{Scene, SceneMesh};
 use glam::{DMat4, DVec3};
 
 pub use shared::{of_folder, shared, shared_folder, shared_named};
@@ -73,6 +74,21 @@ impl TestMesh {
         Ok(Self { name: name.into(), parts })
     }
 
+    /// What casts in a scene.
+    ///
+    /// # Panics
+    ///
+    /// When triangles are refused.
+    pub fn of_scene(name: &str, scene: &Scene) -> Self {
+        let part = |placed: &SceneMesh| {
+            let mut part =
+                Self::generated(&placed.name, &placed.mesh.positions, &placed.mesh.triangles).parts.remove(0);
+            part.world_from_object = placed.world_from_object;
+            part
+        };
+        Self { name: name.into(), parts: scene.meshes.iter().filter(|placed| placed.casts).map(part).collect() }
+    }
+
     /// Number of faces of all parts.
     pub fn face_count(&self) -> usize {
         self.parts.iter().map(|part| part.topology.faces.len()).sum()
@@ -125,10 +141,8 @@ pub fn shapes() -> Vec<TestMesh> {
         .collect()
 }
 
-/// Every mesh there is.
-pub fn all() -> Vec<TestMesh> {
-    let mut meshes = tiny();
-    meshes.extend(shapes());
-    meshes.extend(shared());
-    meshes
+/// Every mesh there is; the first who asks makes them all.
+pub fn all() -> &'static [TestMesh] {
+    static ALL: LazyLock<Vec<TestMesh>> = LazyLock::new(|| [tiny(), shapes(), shared()].concat());
+    &ALL
 }

@@ -26,6 +26,8 @@ mod posed;
 mod repeatable;
 mod silhouette_maps;
 mod silhouette_passes;
+mod silhouette_scenes;
+mod silhouette_shading;
 mod silhouettes;
 mod smoothie_ways;
 mod ten_million;
@@ -41,6 +43,8 @@ fn main() -> ExitCode {
         silhouettes::trials(),
         silhouette_maps::trials(),
         silhouette_passes::trials(),
+        silhouette_scenes::trials(),
+        silhouette_shading::trials(),
         repeatable::trials(),
         nothing_lost::trials(),
         nothing_per_edge::trials(),

@@ -233,7 +233,7 @@ impl Case {
         };
         let floats = run.run(gpu, bytes, &self.shadow_depth, view.far_depth, vertices);
         let map = map_of(&floats, view);
-        let doubtful = || near_doubtful_edges(&self.mesh, view, source);
+        let doubtful = || near_doubtful_edges(&self.mesh, view, source, MAP_SIZE);
         compare(&map, &self.expected, view.far_depth, doubtful, &mut Counts::default())
             .map_err(|difference| format!("{}: {difference}", self.mesh.name))
     }

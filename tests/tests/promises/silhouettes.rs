@@ -23,12 +23,12 @@ use crate::{closed, exact};
 const FACE_TESTS_PER_MESH: usize = 1_000_000;
 
 pub fn trials() -> Vec<Trial> {
-    let trial = |mesh: TestMesh| {
+    let trial = |mesh: &'static TestMesh| {
         let name = format!("silhouettes::exact_and_closed::{}", mesh.name);
-        gpu_trial(name, move |gpu| are_exact_and_closed(gpu, &mesh))
+        gpu_trial(name, |gpu| are_exact_and_closed(gpu, mesh))
     };
     let planted = gpu_trial("silhouettes::a_wrong_bit_and_a_wrong_edge_are_counted", wrong_bits_and_edges_are_counted);
-    all().into_iter().map(trial).chain([planted]).collect()
+    all().iter().map(trial).chain([planted]).collect()
 }
 
 fn are_exact_and_closed(gpu: &Gpu, mesh: &TestMesh) -> Outcome {
