@@ -31,16 +31,18 @@ fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVert
     let clip_from_object = caster_lights[item.caster].light_clip_from_object;
     let image_from_normal = cofactors(clip_from_object);
 
-    let normal = cross(near_one(corners[1] - corners[0]), near_one(corners[2] - corners[0]));
-    let own_facing = facing(clip_from_object, image_from_normal, corners[0], normal);
-    let is_lit = own_facing > 0.0;
+    let first = widest_corner(corners);
+    let to_second = near_one(corners[(first + 1u) % 3u] - corners[first]);
+    let to_third = near_one(corners[(first + 2u) % 3u] - corners[first]);
+    let own_facing = facing(clip_from_object, image_from_normal, corners[first], cross(to_second, to_third));
+    let is_lit = own_facing > EDGE_ON;
     var outline: FaceOutline;
     for (var i = 0u; i < 3u; i++) {
         // Its length tells who draws the edge.
         let across = vectors[3u + i];
         let length_squared = dot(across, across);
         let draws = length_squared > UNLIT_ABOVE || (length_squared > 0.0 && own_facing > LEAST_FACING_DRAWN);
-        let differs = is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > 0.0);
+        let differs = is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > EDGE_ON);
         if !draws || (length_squared < ALWAYS_ABOVE && !differs) {
             continue;
         }

@@ -14,6 +14,10 @@
 @group(0) @binding(7) var<storage, read> positions: array<u32>;
 @group(1) @binding(0) var shadow_depth: texture_2d<f32>;
 
+// A face that the light sees at a smaller sine is unlit. More than roundings: faces that are in one plane with the light must
+// be alike, since the edges between them are asked by nobody.
+const EDGE_ON = 1e-6;
+
 @vertex
 fn vertex_silhouette_face(@builtin(vertex_index) index: u32) -> SilhouetteVertex {
     let item = face_items[index / (3u * BLOCK_SIZE)];
@@ -92,11 +96,16 @@ fn faces_light(caster: Caster, clip_from_object: mat4x4f, ids: array<u32, 3>) ->
     let a = scaled(position_bits(caster, least), caster.position_scale);
     let b = scaled(position_bits(caster, middle), caster.position_scale);
     let c = scaled(position_bits(caster, most), caster.position_scale);
-    let corner = near_one(clip_from_object * vec4f(scaled_position(caster, least), 1.0));
-    let to_b = near_one(clip_from_object * vec4f(b - a, 0.0));
-    let to_c = near_one(clip_from_object * vec4f(c - a, 0.0));
-    let area = determinant(mat3x3f(corner, to_b, to_c));
-    return select(-area, area, keeps_winding) > 0.0;
+    let ordered = array<u32, 3>(least, middle, most);
+    let places = array<vec3f, 3>(a, b, c);
+    let first = widest_corner(places);
+    let second = (first + 1u) % 3u;
+    let third = (first + 2u) % 3u;
+    let corner = near_one(clip_from_object * vec4f(scaled_position(caster, ordered[first]), 1.0));
+    let to_second = near_one(clip_from_object * vec4f(places[second] - places[first], 0.0));
+    let to_third = near_one(clip_from_object * vec4f(places[third] - places[first], 0.0));
+    let area = determinant(mat3x3f(corner, to_second, to_third));
+    return select(-area, area, keeps_winding) > EDGE_ON;
 }
 
 fn near_one(clip: vec4f) -> vec3f {

@@ -24,6 +24,16 @@ const SLACK_TEXELS = 0.05;
 // A triangle that reaches farther, in NDC, is drawn as the box around its outline edges.
 const FARTHEST_NDC = 16.0;
 
+// The corner opposite to the longest side: of slivers the normal follows from the sides there.
+fn widest_corner(corners: array<vec3f, 3>) -> u32 {
+    let sides = vec3f(
+        distance(corners[1], corners[2]),
+        distance(corners[2], corners[0]),
+        distance(corners[0], corners[1]),
+    );
+    return select(select(2u, 1u, sides.y >= sides.z), 0u, sides.x >= sides.y && sides.x >= sides.z);
+}
+
 // The outline edges among the three of a face.
 struct FaceOutline {
     images: array<OutlineImage, 3>,

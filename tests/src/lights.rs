@@ -11,6 +11,9 @@ use crate::random::Random;
 /// Lights of one mesh that every promise is tested with.
 pub const LIGHTS_PER_MESH: usize = 32;
 
+/// Which of them are in the plane of a face, at a point or as a direction.
+pub const IN_PLANES_OF_FACES: [usize; 5] = [17, 18, 19, 30, 31];
+
 /// Points around, near, far away, inside, on vertices, in the planes of faces; directions along axes, along edges, in
 /// the planes of faces and oblique. The same in every run.
 pub fn lights(mesh: &TestMesh) -> Vec<Light> {

@@ -33,7 +33,8 @@ pub struct Expected {
     pub candidates: Vec<Candidate>,
     /// Whether one of them must: else the texel may be empty.
     pub is_certain: bool,
-    /// Whether one that must is so near that the texel is in its band however deep it is.
+    /// Whether one that must is so near that the texel is in its band however deep it is. Not where blockers on both sides of
+    /// it end as near: what is between them may be as thin as rounding.
     pub is_in_least_band: bool,
 }
 
@@ -237,10 +238,13 @@ fn expected(mut contenders: Vec<Contender>) -> Expected {
     contenders.sort_by(|one, other| one.order.total_cmp(&other.order));
     let certain = contenders.iter().find(|contender| contender.answer == Answer::Yes).map(|contender| contender.order);
     let farthest = certain.map_or(f64::INFINITY, |order| order + TIE_TEXELS);
+    let candidates: Vec<_> = contenders.iter().take_while(|it| it.order <= farthest).map(|it| it.candidate).collect();
+    let is_on_one_side = |side: f64| candidates.iter().all(|candidate| side * candidate.texel.signed_distance >= 0.0);
+    let is_reached = contenders.iter().any(|it| it.answer == Answer::Yes && it.is_in_least_band);
     Expected {
-        candidates: contenders.iter().take_while(|it| it.order <= farthest).map(|it| it.candidate).collect(),
         is_certain: certain.is_some(),
-        is_in_least_band: contenders.iter().any(|it| it.answer == Answer::Yes && it.is_in_least_band),
+        is_in_least_band: is_reached && (is_on_one_side(1.0) || is_on_one_side(-1.0)),
+        candidates,
     }
 }
 

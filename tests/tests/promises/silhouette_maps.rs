@@ -1,9 +1,9 @@
 //! Silhouette maps are as defined, and all sources leave the same one: the compute stages, which are exact, and the vertex
 //! stage, as topology-aware meshes do it, by what is across the edges of faces or by a stream of normals.
 //!
-//! For every mesh under eight lights, two of them wide, each texel holds depth and signed distance of the nearest silhouette that the light
-//! reaches, as worked out in 64-bit floats from the stages' quads: the distance up to [`DISTANCE_ROUNDING`], the depth up to
-//! [`DEPTH_ROUNDING`]. Two kinds of texels are left open, and counted:
+//! For every mesh under eight lights, two of them wide, each texel holds depth and signed distance of the nearest silhouette
+//! that the light reaches, as worked out in 64-bit floats from the twins' quads: the distance up to [`DISTANCE_ROUNDING`], the
+//! depth up to [`DEPTH_ROUNDING`], and along the silhouette the one may be off as far as the other makes it. Two kinds of texels are left open, and counted:
 //!
 //! - **Ties**, for all sources: silhouettes that are equally far, and those on the brink of where distances are drawn, or as
 //!   deep as what hides them. Rounding decides, and each outcome is as good.
@@ -11,7 +11,8 @@
 //!   [`FACING_ROUNDING`], since that stage asks in floats, or of an edge beside faces without area that have no sign, which it
 //!   draws whatever the light or not at all. For a stream, which asks faces in pairs, also of an edge of more than two that
 //!   has some on each side.
-//!   [`MOST_BY_FACING`] of a mesh's texels may be such; of a stream's where the mesh has no edge of more than two.
+//!   [`MOST_BY_FACING`] of a mesh's texels may be such, but under lights that see all of a flat mesh edge-on; of a stream's
+//!   where the mesh has no edge of more than two.
 
 use std::collections::HashSet;
 
@@ -82,6 +83,8 @@ pub struct Counts {
     certain: usize,
     ties: usize,
     by_facing: usize,
+    /// The same where the light is in the plane of all there is.
+    of_flat: usize,
 }
 
 impl Counts {
@@ -126,7 +129,7 @@ pub fn compare_sources(
                 none => none.insert(drawn.definitions(mesh, &views)?),
             };
             for ((map, expected), view) in maps.iter().zip(expected).zip(&views) {
-                let doubtful = || near_doubtful_edges(mesh, view, source, map_size);
+                let doubtful = || near_doubtful_edges(mesh, view, source, map_size).or_hidden();
                 compare(map, expected, view.far_depth, doubtful, counts)
                     .map_err(|difference| format!("{source:?}, {:?}: {difference}", light.kind))?;
             }
@@ -212,7 +215,8 @@ pub fn compare(
             (true, 1) if expected.is_certain => counts.certain += 1,
             (true, _) => counts.ties += 1,
             (false, _) if near_doubtful.get_or_insert_with(&doubtful).explains(index, texel, expected) => {
-                counts.by_facing += 1;
+                let is_flat = near_doubtful.as_ref().is_some_and(|doubtful| doubtful.is_flat);
+                *(if is_flat { &mut counts.of_flat } else { &mut counts.by_facing }) += 1;
             }
             (false, _) => return Err(format!("texel {index}: {texel:?}, and not {expected:?}")),
         }
@@ -230,23 +234,31 @@ fn is_alike(candidate: &Candidate, found: &SilhouetteTexel, far_depth: f64) -> b
         && (texel.depth - found.depth).abs() <= depth_rounding
 }
 
-/// The texels within reach of edges that a source may see otherwise than the stages do.
+/// What may be otherwise in a map, texel by texel.
 #[derive(Debug, Default)]
 pub struct Doubtful {
     /// The silhouette may be another edge's of a face that is seen edge-on, at the same place but for rounding, and at another
     /// depth, which makes its band another one.
     another: HashSet<usize>,
-    /// There may be no silhouette: no face has a side to be seen.
+    /// There may be no silhouette.
     none: HashSet<usize>,
+    /// Whether the light sees all edges so: a flat mesh, edge-on.
+    is_flat: bool,
 }
 
 impl Doubtful {
+    /// The same where something hides silhouettes: it may hide the other edge.
+    pub fn or_hidden(self) -> Self {
+        Self { none: self.none.union(&self.another).copied().collect(), another: HashSet::new(), ..self }
+    }
+
     fn explains(&self, index: usize, found: &Option<SilhouetteTexel>, expected: &Expected) -> bool {
         let is_hole = found.is_none() && expected.is_in_least_band;
         self.none.contains(&index) || (!is_hole && self.another.contains(&index))
     }
 }
 
+/// The texels near the edges that a source may see otherwise than the stages do.
 pub fn near_doubtful_edges(mesh: &TestMesh, view: &View, source: SilhouetteSource, map_size: u32) -> Doubtful {
     let (facing_rounding, asks_pairs) = match source {
         SilhouetteSource::Stages => return Doubtful::default(),
@@ -257,27 +269,30 @@ pub fn near_doubtful_edges(mesh: &TestMesh, view: &View, source: SilhouetteSourc
     let record = view.light_view(&settings(source, map_size), &ViewCounts::default());
     let edges = mesh.parts.iter().flat_map(|part| doubtful_edges(part, view, facing_rounding, asks_pairs));
     let mut doubtful = Doubtful::default();
+    let mut seen: u32 = mesh.parts.iter().map(|part| part.topology.candidate_edge_count).sum();
     for (doubt, segment) in edges {
         let texels = match doubt {
-            Doubt::Another => &mut doubtful.another,
-            Doubt::None => &mut doubtful.none,
+            Doubt::EdgeOn | Doubt::InPairs => &mut doubtful.another,
+            Doubt::NoFace => &mut doubtful.none,
         };
         texels.extend(near_segment(segment, &record));
+        seen -= u32::from(!matches!(doubt, Doubt::InPairs));
     }
+    doubtful.is_flat = seen == 0;
     doubtful
 }
 
-/// What a source may see at an edge.
+/// Why a source may see another silhouette than the stages.
 enum Doubt {
-    /// A silhouette where the stages see none, or the other way round: then another edge at the same place has it.
-    Another,
-    /// No silhouette at all.
-    None,
+    /// A face at the edge is seen edge-on up to a rounding.
+    EdgeOn,
+    /// Some faces at the edge are on each side, of which a pair may lie on one.
+    InPairs,
+    /// Faces without area that have no sign: the edge is drawn whatever the light, or has no face that draws it.
+    NoFace,
 }
 
-/// Edges with the clip coordinates of their ends: those beside faces without area that have no sign, which are drawn whatever
-/// the light or have no face that draws them; those at faces that are seen edge-on up to a rounding; and where faces are asked
-/// in pairs those of more than two with some on each side, of which a pair may lie on one.
+/// Edges with the clip coordinates of their ends. Only a stream asks faces in pairs.
 fn doubtful_edges(part: &TestPart, view: &View, facing_rounding: f64, asks_pairs: bool) -> Vec<(Doubt, [DVec4; 2])> {
     let mesh = &part.topology;
     let clip_from_object: DMat4 = view.light_clip_from_world * part.world_from_object;
@@ -303,10 +318,12 @@ fn doubtful_edges(part: &TestPart, view: &View, facing_rounding: f64, asks_pairs
         let has_two_sides = words.iter().any(|word| is_left(*word) != is_left(words[0]));
         let is_edge_on = |word: &u32| facing_of(*word).is_some_and(|facing| facing.abs() <= facing_rounding);
         if asks_no_face {
-            return Some(Doubt::None);
+            return Some(Doubt::NoFace);
         }
-        let may_differ = words.iter().any(is_edge_on) || (asks_pairs && words.len() > 2 && has_two_sides);
-        may_differ.then_some(Doubt::Another)
+        if words.iter().any(is_edge_on) {
+            return Some(Doubt::EdgeOn);
+        }
+        (asks_pairs && words.len() > 2 && has_two_sides).then_some(Doubt::InPairs)
     };
     let candidates = &mesh.edges[..mesh.candidate_edge_count as usize];
     let doubtful = candidates.iter().filter_map(|edge| {
@@ -418,7 +435,7 @@ fn comparer_finds_planted_faults() -> Outcome {
     let good: Map = vec![None, Some(texel(2.0, -0.5)), Some(texel(3.0, 0.5)), None];
     let compared = |map: &Map, [another, none]: [&[usize]; 2]| {
         let set = |texels: &[usize]| texels.iter().copied().collect();
-        let doubtful = || Doubtful { another: set(another), none: set(none) };
+        let doubtful = || Doubtful { another: set(another), none: set(none), is_flat: false };
         compare(map, &expected, 9.0, doubtful, &mut Counts::default())
     };
     compared(&good, [&[]; 2])?;
