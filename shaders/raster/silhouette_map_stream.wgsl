@@ -31,10 +31,9 @@ fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVert
     let clip_from_object = caster_lights[item.caster].light_clip_from_object;
     let image_from_normal = cofactors(clip_from_object);
 
-    let first = widest_corner(corners);
-    let to_second = near_one(corners[(first + 1u) % 3u] - corners[first]);
-    let to_third = near_one(corners[(first + 2u) % 3u] - corners[first]);
-    let own_facing = facing(clip_from_object, image_from_normal, corners[first], cross(to_second, to_third));
+    let widest = widest_corner(corners[0], corners[1], corners[2]);
+    let normal = cross(near_one(widest.to_next), near_one(widest.to_last));
+    let own_facing = facing(clip_from_object, image_from_normal, corners[widest.index], normal);
     let is_lit = own_facing > EDGE_ON;
     var outline: FaceOutline;
     for (var i = 0u; i < 3u; i++) {

@@ -96,15 +96,12 @@ fn faces_light(caster: Caster, clip_from_object: mat4x4f, ids: array<u32, 3>) ->
     let a = scaled(position_bits(caster, least), caster.position_scale);
     let b = scaled(position_bits(caster, middle), caster.position_scale);
     let c = scaled(position_bits(caster, most), caster.position_scale);
-    let ordered = array<u32, 3>(least, middle, most);
-    let places = array<vec3f, 3>(a, b, c);
-    let first = widest_corner(places);
-    let second = (first + 1u) % 3u;
-    let third = (first + 2u) % 3u;
-    let corner = near_one(clip_from_object * vec4f(scaled_position(caster, ordered[first]), 1.0));
-    let to_second = near_one(clip_from_object * vec4f(places[second] - places[first], 0.0));
-    let to_third = near_one(clip_from_object * vec4f(places[third] - places[first], 0.0));
-    let area = determinant(mat3x3f(corner, to_second, to_third));
+    let widest = widest_corner(a, b, c);
+    let id = select(select(most, middle, widest.index == 1u), least, widest.index == 0u);
+    let corner = near_one(clip_from_object * vec4f(scaled_position(caster, id), 1.0));
+    let to_next = near_one(clip_from_object * vec4f(widest.to_next, 0.0));
+    let to_last = near_one(clip_from_object * vec4f(widest.to_last, 0.0));
+    let area = determinant(mat3x3f(corner, to_next, to_last));
     return select(-area, area, keeps_winding) > EDGE_ON;
 }
 

@@ -24,14 +24,26 @@ const SLACK_TEXELS = 0.05;
 // A triangle that reaches farther, in NDC, is drawn as the box around its outline edges.
 const FARTHEST_NDC = 16.0;
 
-// The corner opposite to the longest side: of slivers the normal follows from the sides there.
-fn widest_corner(corners: array<vec3f, 3>) -> u32 {
-    let sides = vec3f(
-        distance(corners[1], corners[2]),
-        distance(corners[2], corners[0]),
-        distance(corners[0], corners[1]),
-    );
-    return select(select(2u, 1u, sides.y >= sides.z), 0u, sides.x >= sides.y && sides.x >= sides.z);
+// The corner of a face that is opposite to its longest side, and the ways from there to the next corner and to the last.
+struct WidestCorner {
+    index: u32,
+    to_next: vec3f,
+    to_last: vec3f,
+}
+
+// Of slivers the normal follows from the sides there: none of the two is much longer than what is between them.
+fn widest_corner(a: vec3f, b: vec3f, c: vec3f) -> WidestCorner {
+    let ab = b - a;
+    let bc = c - b;
+    let ca = a - c;
+    let squares = vec3f(dot(bc, bc), dot(ca, ca), dot(ab, ab));
+    if squares.x >= max(squares.y, squares.z) {
+        return WidestCorner(0u, ab, -ca);
+    }
+    if squares.y >= squares.z {
+        return WidestCorner(1u, bc, -ab);
+    }
+    return WidestCorner(2u, ca, -bc);
 }
 
 // The outline edges among the three of a face.

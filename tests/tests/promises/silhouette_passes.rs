@@ -85,7 +85,7 @@ const FAULTS_FROM_A_STREAM: &[Replaced] = &[
     ("is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > EDGE_ON)", "is_lit"),
     ("length_squared > 0.0 && ", ""),
     ("const UNLIT_ABOVE = 2.0;", "const UNLIT_ABOVE = 64.0;"),
-    ("cross(to_second, to_third)", "cross(to_third, to_second)"),
+    ("corners[widest.index], normal)", "corners[widest.index], -normal)"),
     ("let across = vectors[3u + i];", "let across = vectors[3u + (i + 1u) % 3u];"),
     ("cross(near[1], near[2]), cross(near[2], near[0])", "cross(near[2], near[0]), cross(near[1], near[2])"),
     ("is_lit == runs_up);", "is_lit);"),
@@ -99,19 +99,12 @@ const FAULTS_FROM_HALVES: &[Replaced] = &[
     ("vec3f(middle.y, last)", "vec3f(last, middle.y)"),
 ];
 
+const WITH_A_LONGEST_SIDE: Replaced = ("squares.x >= max(squares.y, squares.z)", "true");
+
 /// What keeps outlines closed where light is in the plane of faces.
 const FAULTS_OF_FACES_SEEN_EDGE_ON: [(SilhouetteSource, &[Replaced]); 3] = [
-    (
-        SilhouetteSource::Faces,
-        &[("const EDGE_ON = 1e-6;", "const EDGE_ON = 0.0;"), ("let first = widest_corner(places);", "let first = 0u;")],
-    ),
-    (
-        STREAM,
-        &[
-            ("const EDGE_ON = 1e-6;", "const EDGE_ON = 0.0;"),
-            ("let first = widest_corner(corners);", "let first = 0u;"),
-        ],
-    ),
+    (SilhouetteSource::Faces, &[("const EDGE_ON = 1e-6;", "const EDGE_ON = 0.0;"), WITH_A_LONGEST_SIDE]),
+    (STREAM, &[("const EDGE_ON = 1e-6;", "const EDGE_ON = 0.0;"), WITH_A_LONGEST_SIDE]),
     (HALF_STREAM, &[("const EDGE_ON = 0.001;", "const EDGE_ON = 0.0;")]),
 ];
 
