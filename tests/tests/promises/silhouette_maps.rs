@@ -88,6 +88,10 @@ pub struct Counts {
 }
 
 impl Counts {
+    pub fn has_certain(&self) -> bool {
+        self.certain > 0
+    }
+
     /// Nothing is certain where no face has an area.
     pub fn explains_too_much(&self) -> bool {
         self.certain > 0 && self.by_facing as f64 > MOST_BY_FACING * self.certain as f64
@@ -163,6 +167,9 @@ impl<'a> Drawn<'a> {
         self.pipeline.complete_frame(light)?;
         let Some(texture) = self.pipeline.maps().silhouette_map else { return Ok(None) };
         let floats = read_floats(self.gpu, texture);
+        if floats.len() != 2 * self.texels() * views.len() {
+            return Err(format!("{} floats for {} views", floats.len(), views.len()));
+        }
         Ok(Some(floats.chunks(2 * self.texels()).zip(views).map(|(floats, view)| map_of(floats, view)).collect()))
     }
 
