@@ -127,7 +127,11 @@ pub fn compare_sources(
         let mut expected = None;
         for ((drawn, counts), source) in drawn.iter_mut().zip(&mut counts).zip(SOURCES) {
             let drawn = drawn.as_mut().map_err(|error| error.clone())?;
-            let Some(maps) = drawn.maps(&light, &views)? else { continue };
+            let maps = match drawn.maps(&light, &views)? {
+                Some(maps) => maps,
+                None if expected.is_none() => continue,
+                None => return Err(format!("{source:?} has no map where the stages have one")),
+            };
             let expected = match &mut expected {
                 Some(expected) => &*expected,
                 none => none.insert(drawn.definitions(mesh, &views)?),
