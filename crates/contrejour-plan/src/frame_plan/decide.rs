@@ -209,32 +209,23 @@ fn silhouette_pass(input: &PlanInput<'_>, silhouettes: &SilhouetteMapSettings, l
         SilhouetteWinner::ByBlending if blends_depth(input) => (true, Reason::BlendingAskedFor),
         SilhouetteWinner::ByBlending => (false, Reason::DeviceBlendsNoFloats),
     };
-    let mut ways: [fn(SilhouetteSource) -> Pass; 2] = [pass_by_depth, pass_by_blending];
-    if is_blended {
-        ways.reverse();
-    }
-    let [pass, other_pass] = ways;
-    left_out.all(SilhouetteSource::ALL.map(other_pass).map(Omitted::Pass).into_iter(), not_otherwise);
+    let omitted = |source, is_blended| Omitted::Pass(filling_pass(source, is_blended));
+    left_out.all(SilhouetteSource::ALL.into_iter().map(|source| omitted(source, !is_blended)), not_otherwise);
     let not_asked = SilhouetteSource::ALL.into_iter().filter(|source| *source != silhouettes.source);
-    left_out.all(not_asked.map(pass).map(Omitted::Pass), finds_them(silhouettes.source));
-    pass(silhouettes.source)
+    left_out.all(not_asked.map(|source| omitted(source, is_blended)), finds_them(silhouettes.source));
+    filling_pass(silhouettes.source, is_blended)
 }
 
-fn pass_by_depth(source: SilhouetteSource) -> Pass {
-    match source {
-        SilhouetteSource::Stages => Pass::SilhouetteMap,
-        SilhouetteSource::Faces => Pass::SilhouetteMapTam,
-        SilhouetteSource::Stream(StreamPrecision::Bits32) => Pass::SilhouetteMapStream,
-        SilhouetteSource::Stream(StreamPrecision::Bits16) => Pass::SilhouetteMapHalfStream,
-    }
-}
-
-fn pass_by_blending(source: SilhouetteSource) -> Pass {
-    match source {
-        SilhouetteSource::Stages => Pass::BlendedSilhouetteMap,
-        SilhouetteSource::Faces => Pass::BlendedSilhouetteMapTam,
-        SilhouetteSource::Stream(StreamPrecision::Bits32) => Pass::BlendedSilhouetteMapStream,
-        SilhouetteSource::Stream(StreamPrecision::Bits16) => Pass::BlendedSilhouetteMapHalfStream,
+fn filling_pass(source: SilhouetteSource, is_blended: bool) -> Pass {
+    match (source, is_blended) {
+        (SilhouetteSource::Stages, false) => Pass::SilhouetteMap,
+        (SilhouetteSource::Stages, true) => Pass::BlendedSilhouetteMap,
+        (SilhouetteSource::Faces, false) => Pass::SilhouetteMapTam,
+        (SilhouetteSource::Faces, true) => Pass::BlendedSilhouetteMapTam,
+        (SilhouetteSource::Stream(StreamPrecision::Bits32), false) => Pass::SilhouetteMapStream,
+        (SilhouetteSource::Stream(StreamPrecision::Bits32), true) => Pass::BlendedSilhouetteMapStream,
+        (SilhouetteSource::Stream(StreamPrecision::Bits16), false) => Pass::SilhouetteMapHalfStream,
+        (SilhouetteSource::Stream(StreamPrecision::Bits16), true) => Pass::BlendedSilhouetteMapHalfStream,
     }
 }
 
