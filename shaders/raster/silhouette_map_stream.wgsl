@@ -34,14 +34,14 @@ fn vertex_silhouette_stream(@builtin(vertex_index) index: u32) -> SilhouetteVert
     let widest = widest_corner(corners[0], corners[1], corners[2]);
     let normal = cross(near_one(widest.to_next), near_one(widest.to_last));
     let own_facing = facing(clip_from_object, image_from_normal, corners[widest.index], normal);
-    let is_lit = own_facing > EDGE_ON;
+    let is_lit = is_lit_at(own_facing);
     var outline: FaceOutline;
     for (var i = 0u; i < 3u; i++) {
         // Its length tells who draws the edge.
         let across = vectors[3u + i];
         let length_squared = dot(across, across);
         let draws = length_squared > UNLIT_ABOVE || (length_squared > 0.0 && own_facing > LEAST_FACING_DRAWN);
-        let differs = is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > EDGE_ON);
+        let differs = is_lit != is_lit_at(facing(clip_from_object, image_from_normal, corners[i], across));
         if !draws || (length_squared < ALWAYS_ABOVE && !differs) {
             continue;
         }

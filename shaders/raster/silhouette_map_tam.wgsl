@@ -14,8 +14,7 @@
 @group(0) @binding(7) var<storage, read> positions: array<u32>;
 @group(1) @binding(0) var shadow_depth: texture_2d<f32>;
 
-// A face that the light sees at a smaller sine is unlit. More than roundings: faces that are in one plane with the light must
-// be alike, since the edges between them are asked by nobody.
+// A smaller sine is rounding.
 const EDGE_ON = 1e-6;
 
 @vertex
@@ -102,7 +101,7 @@ fn faces_light(caster: Caster, clip_from_object: mat4x4f, ids: array<u32, 3>) ->
     let to_next = near_one(clip_from_object * vec4f(widest.to_next, 0.0));
     let to_last = near_one(clip_from_object * vec4f(widest.to_last, 0.0));
     let area = determinant(mat3x3f(corner, to_next, to_last));
-    return select(-area, area, keeps_winding) > EDGE_ON;
+    return is_lit_at(select(-area, area, keeps_winding));
 }
 
 fn near_one(clip: vec4f) -> vec3f {

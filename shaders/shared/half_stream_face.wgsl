@@ -3,8 +3,7 @@
 // Both faces at an outline edge draw it: rounded corners may turn a small face to any side, and its neighbours know another
 // normal of it.
 const LEAST_FACING_DRAWN = -1e30;
-// A face that the light sees at a smaller sine is unlit. More than roundings of normals and corners: faces that are in one
-// plane with the light must be alike, since the edges between them are asked by nobody.
+// A smaller sine is rounding, of normals and corners.
 const EDGE_ON = 0.001;
 
 fn stream_face(index: u32) -> array<vec3f, 6> {

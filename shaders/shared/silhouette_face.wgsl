@@ -24,6 +24,12 @@ const SLACK_TEXELS = 0.05;
 // A triangle that reaches farther, in NDC, is drawn as the box around its outline edges.
 const FARTHEST_NDC = 16.0;
 
+// Whether a face that the light sees at this sine is lit: not where it sees it edge-on, up to the roundings of what holds the
+// face. Faces that are in one plane with the light must be alike, since the edges between them are asked by nobody.
+fn is_lit_at(sine: f32) -> bool {
+    return sine > EDGE_ON;
+}
+
 // The corner of a face that is opposite to its longest side, and the ways from there to the next corner and to the last.
 struct WidestCorner {
     index: u32,

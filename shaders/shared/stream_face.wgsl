@@ -3,8 +3,7 @@
 // Of two faces at an outline edge the lit one draws it, and also one that may be lit, but for rounding: its neighbours know a
 // normal of it that is rounded otherwise.
 const LEAST_FACING_DRAWN = -1e-5;
-// A face that the light sees at a smaller sine is unlit. More than roundings: faces that are in one plane with the light must
-// be alike, since the edges between them are asked by nobody.
+// A smaller sine is rounding.
 const EDGE_ON = 1e-6;
 
 fn stream_face(index: u32) -> array<vec3f, 6> {

@@ -82,7 +82,7 @@ const FAULTS_FROM_FACES: &[Replaced] = &[
 ];
 
 const FAULTS_FROM_A_STREAM: &[Replaced] = &[
-    ("is_lit != (facing(clip_from_object, image_from_normal, corners[i], across) > EDGE_ON)", "is_lit"),
+    ("is_lit != is_lit_at(facing(clip_from_object, image_from_normal, corners[i], across))", "is_lit"),
     ("length_squared > 0.0 && ", ""),
     ("const UNLIT_ABOVE = 2.0;", "const UNLIT_ABOVE = 64.0;"),
     ("corners[widest.index], normal)", "corners[widest.index], -normal)"),
