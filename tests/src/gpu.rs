@@ -24,7 +24,7 @@ pub struct Gpu {
     pub adapter: String,
 }
 
-/// A device that is there for as long as its thread, or why there is none.
+/// A device that is never given back, or why there is none.
 type Kept = Result<&'static Gpu, &'static str>;
 
 /// The thread's device with WebGPU's default limits and no optional feature.
