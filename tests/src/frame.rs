@@ -189,6 +189,16 @@ impl Frame {
         &self.counters[self.seat].counts
     }
 
+    /// The quads that were made for that seat.
+    pub fn made_quads(&self) -> &[Quad] {
+        &self.quads[..self.counts().quads as usize]
+    }
+
+    /// The corners that were made for that seat.
+    pub fn made_corners(&self) -> &[Corner] {
+        &self.corners[..self.counts().corners as usize]
+    }
+
     /// Where what that seat has begins in what seats have apart, by the stride.
     pub fn begin(&self, stride: u32) -> usize {
         self.seat * stride as usize

@@ -7,7 +7,6 @@
 //! smoothies of disks, and there the same checks find the seam.
 
 use contrejour_gpu::ShadowOptions;
-use contrejour_layout::{Corner, Quad};
 use contrejour_plan::{
     AlphaRemap, CubeFace, Light, LightKind, LightOutline, ShadowSettings, SmoothieBlend, SmoothieSettings, Technique,
     View, frame_views, views,
@@ -154,20 +153,12 @@ fn frame(view: &View) -> Frame {
     frame
 }
 
-fn quads(frame: &Frame) -> &[Quad] {
-    &frame.quads[..frame.counts().quads as usize]
-}
-
-fn corners(frame: &Frame) -> &[Corner] {
-    &frame.corners[..frame.counts().corners as usize]
-}
-
 fn faces_agree_by_definition() -> Outcome {
     check_both(
         |views| {
             let frames: Vec<_> = views.iter().map(frame).collect();
             Ok(difference_of_neighbours(views, 7, |face, place| {
-                Some(alpha(&views[face], quads(&frames[face]), corners(&frames[face]), place))
+                Some(alpha(&views[face], frames[face].made_quads(), frames[face].made_corners(), place))
             }))
         },
         FACES_MEAN,
@@ -255,8 +246,12 @@ fn maps_are_as_defined(gpu: &Gpu) -> Outcome {
             let [of_quads, of_corners] = [of_quads, of_corners].map(|light_outline| View { light_outline, ..*view });
             for place in directions(view).step_by(7).filter_map(|direction| place_ndc(view, direction)) {
                 if let Some(drawn) = map.at(place).filter(|&drawn| drawn < 1.0) {
-                    let defined =
-                        alpha(&of_quads, quads(frame), &[], place).min(alpha(&of_corners, &[], corners(frame), place));
+                    let defined = alpha(&of_quads, frame.made_quads(), &[], place).min(alpha(
+                        &of_corners,
+                        &[],
+                        frame.made_corners(),
+                        place,
+                    ));
                     difference.add((drawn - defined).abs());
                 }
             }

@@ -24,6 +24,7 @@ mod peers;
 mod pictures;
 mod posed;
 mod repeatable;
+mod silhouette_doubts;
 mod silhouette_maps;
 mod silhouette_passes;
 mod silhouette_scenes;

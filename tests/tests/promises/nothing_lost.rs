@@ -120,7 +120,7 @@ fn check_all_are_there(pipeline: &Pipeline<'_>, twin: &Frame) -> Outcome {
     if keys(&pipeline.quads()) != keys(expected) || keys(expected).len() != expected.len() {
         return Err("the quads are not all".into());
     }
-    let expected = &twin.corners[..twin.counts().corners as usize];
+    let expected = twin.made_corners();
     if keys(&pipeline.corners()) != keys(expected) {
         return Err("the corners are not all".into());
     }

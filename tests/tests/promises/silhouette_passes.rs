@@ -24,7 +24,8 @@ use contrejour_tests::silhouette_texels::{Definition, Expected};
 use glam::{DMat4, DVec3};
 use libtest_mimic::Trial;
 
-use crate::silhouette_maps::{Counts, compare, map_of, near_doubtful_edges, settings};
+use crate::silhouette_doubts::near_doubtful_edges;
+use crate::silhouette_maps::{Counts, compare, map_of, settings};
 
 const MAP_SIZE: u32 = 128;
 
@@ -294,7 +295,7 @@ impl Case {
         let fans = mesh.parts.iter().flat_map(|part| [GAP.to_vec(), edge_fans(&part.topology)].concat()).collect();
         let [stream, half_stream] =
             [TamPrecision::Full, TamPrecision::Half].map(|precision| stream_of(mesh, &frame, precision));
-        let quads = &frame.quads[..frame.counts().quads as usize];
+        let quads = frame.made_quads();
         let shadow_depth = match hidden {
             Hidden::Half => hiding_half(quads.iter().map(|quad| depth_of_q(&frame, quad.q[0])).collect(), &view),
             Hidden::Nothing => vec![view.far_depth as f32; (MAP_SIZE * MAP_SIZE) as usize],

@@ -42,7 +42,7 @@ fn equals_its_twin(gpu: &Gpu) -> Outcome {
         twin.run_mirror("build_corners");
         let counters = counts_of(&outputs);
         let found: Vec<Corner> = outputs.get("corners");
-        let expected = &twin.corners[..twin.counts().corners as usize];
+        let expected = twin.made_corners();
         corners += expected.len();
         different += compare(&twin, expected, &found[..counters.corners as usize])?;
         let without = |counters: Counters| Counters { corners: 0, ..counters };
@@ -65,7 +65,7 @@ fn compare(frame: &Frame, expected: &[Corner], found: &[Corner]) -> Result<usize
         return Err("an end has two corners".into());
     }
     let mut different = 0;
-    for quad in &frame.quads[..frame.counts().quads as usize] {
+    for quad in frame.made_quads() {
         for (end, vertex) in [(OWN_END_LOW, quad.low_vertex), (OWN_END_HIGH, quad.high_vertex)] {
             let key = [quad.caster, quad.edge_id, vertex];
             let (expected, found) = (expected_by_key.get(&key), found_by_key.get(&key));
@@ -172,7 +172,7 @@ fn comparer_finds_planted_faults() -> Outcome {
     for_each_smooth_case("build_corners", |case| {
         let mut twin = case.frame.clone();
         twin.run_mirror("build_corners");
-        let expected = &twin.corners[..twin.counts().corners as usize];
+        let expected = twin.made_corners();
         for (index, fault) in (0..expected.len()).step_by(7).zip((0..faults.len()).cycle()) {
             let mut faulty = expected.to_vec();
             faults[fault](&mut faulty, index);
